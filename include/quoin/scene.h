@@ -1,0 +1,135 @@
+/* quoin: a compiled scene, frozen, and the questions asked of it: a point's side, a ray's intervals, the first hit. */
+#ifndef QUOIN_SCENE_H
+#define QUOIN_SCENE_H
+
+#include "quoin/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct quoin_scene quoin_scene; /* immutable; shared by any number of threads */
+typedef struct quoin_work quoin_work;   /* one thread's scratch for one scene */
+
+typedef struct quoin_compile_options {
+  unsigned threads;        /* 0: as many as the machine has */
+  quoin_progress progress; /* report may be null */
+} quoin_compile_options;
+QUOIN_API quoin_compile_options quoin_compile_options_default(void);
+
+/* Compiles a model: finds equal surfaces, simplifies, bounds, builds the hierarchy. The model is frozen from then on;
+   it may be freed before the scene. Warnings are added to the model's diagnostics. options may be null.
+   QUOIN_E_MODEL: the model has errors. Cost: n log n in the number of leaves. */
+QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compile_options *options, quoin_scene **out);
+QUOIN_API void quoin_scene_free(quoin_scene *scene); /* null is allowed; every quoin_work of it must be freed first */
+
+typedef struct quoin_scene_info {
+  size_t leaves;            /* primitives that were kept */
+  size_t surfaces;          /* half-spaces of those leaves */
+  size_t distinct_surfaces; /* after equal surfaces were made one */
+  int empty;                /* no point is inside */
+  int unbounded;            /* no bounding box could be given */
+  double box_min[3], box_max[3]; /* holds the solid; each leaf's box is tight to the last bits, a tree's is the boxes' combination; infinite where unbounded */
+  size_t memory;            /* bytes held */
+} quoin_scene_info;
+QUOIN_API void quoin_scene_get_info(const quoin_scene *scene, quoin_scene_info *out);
+
+/* The compiled scene as stable text: surfaces, leaves, program. For reading and for tests. */
+QUOIN_API quoin_status quoin_scene_write_text(const quoin_scene *scene, quoin_write_fn write, void *user);
+
+/* A part: a leaf as the user would name it: the innermost name("...") around it, else "word@line:col". */
+typedef uint32_t quoin_part;
+#define QUOIN_NO_PART UINT32_MAX
+QUOIN_API const char *quoin_part_name(const quoin_scene *scene, quoin_part part); /* "" for QUOIN_NO_PART */
+
+/* A surface of a part: the body, cap 0, cap 1, or face k of a solid made of planes. */
+typedef enum quoin_role { QUOIN_BODY = 0, QUOIN_CAP0 = 1, QUOIN_CAP1 = 2, QUOIN_FACE = 3 /* + k */ } quoin_role;
+/* Writes "body", "cap0", "cap1" or "face K"; returns as snprintf does. */
+QUOIN_API int quoin_role_text(uint32_t role, char *text, size_t size);
+
+/* Scratch for one thread. Freed with quoin_work_free before its scene. */
+QUOIN_API quoin_status quoin_work_new(const quoin_scene *scene, quoin_work **out);
+QUOIN_API void quoin_work_free(quoin_work *work);
+
+/* What was done and what was skipped, summed since the work was made. */
+typedef struct quoin_stats {
+  uint64_t rays, points;
+  uint64_t nodes;          /* hierarchy nodes visited */
+  uint64_t leaves;         /* leaves solved */
+  uint64_t filter_sure;    /* decisions certified by doubles */
+  uint64_t exact_signs;    /* signs taken in exact arithmetic */
+  uint64_t exact_orders;   /* orders of two roots taken in exact arithmetic */
+  uint64_t exact_rays;     /* rays answered whole by the exact path */
+  uint64_t exact_roundings;/* reported parameters rounded in exact arithmetic */
+  uint64_t exact_forms;    /* exact surfaces made on demand */
+} quoin_stats;
+QUOIN_API void quoin_work_stats(const quoin_work *work, quoin_stats *out);
+
+typedef enum quoin_side { QUOIN_OUTSIDE = 0, QUOIN_BOUNDARY = 1, QUOIN_INSIDE = 2 } quoin_side;
+
+/* The side of a point (design S6). Exact. The doubles mean themselves. */
+QUOIN_API quoin_status quoin_point_side(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_side *out);
+/* n points, xyz after xyz. */
+QUOIN_API quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_t n, const double *points, quoin_side *out);
+/* A point as decimals: "0.1" is 1/10. QUOIN_E_NUMBER when a text is not a finite decimal number. */
+QUOIN_API quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_side *out);
+/* The parts whose closed solids hold the point of the last quoin_point_side*, in the order of the file: up to `size` of
+   them into parts; *count is how many there are. */
+QUOIN_API quoin_status quoin_point_parts(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_part *parts, size_t size, size_t *count);
+QUOIN_API quoin_status quoin_point_parts_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_part *parts, size_t size, size_t *count);
+
+/* A ray: o + t d. d need not be a unit vector and t is in its units. Answers lie in [from, to]; either may be infinite. */
+typedef struct quoin_ray {
+  double o[3], d[3];
+  double from, to;
+} quoin_ray;
+
+/* An end of an interval: the parameter, correctly rounded (to nearest, ties to even) from the exact one; the part and
+   the surface that make the end. At from and to, and at infinity, part is QUOIN_NO_PART. */
+typedef struct quoin_end {
+  double t;
+  quoin_part part;
+  uint32_t role;
+} quoin_end;
+typedef struct quoin_interval { quoin_end enter, leave; } quoin_interval;
+
+/* A ray's answer. The arrays belong to the work and hold until its next call. Intervals are disjoint, of positive
+   length and in increasing order (exactly; two ends may round to one double). */
+typedef struct quoin_intervals {
+  size_t count;
+  const quoin_interval *inside;   /* stretches inside the solid */
+  size_t boundary_count;
+  const quoin_interval *boundary; /* stretches that run in the boundary (S7) */
+  size_t contact_count;
+  const quoin_end *contacts;      /* points where the ray touches the solid between stretches outside it */
+} quoin_intervals;
+
+enum { QUOIN_WANT_BOUNDARY = 1, QUOIN_WANT_CONTACTS = 2 };
+
+/* All intervals of a ray, exact. want: 0 or a sum of QUOIN_WANT_*. */
+QUOIN_API quoin_status quoin_ray_intervals(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, unsigned want, quoin_intervals *out);
+/* Many rays: calls each(user, i, answer) for every ray in order; a non-zero return stops with QUOIN_E_CANCELLED. */
+QUOIN_API quoin_status quoin_ray_intervals_many(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want,
+                                                int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user);
+/* The ray as decimals: origin xyz, direction xyz; from and to as decimals too, or null for -inf and inf. */
+QUOIN_API quoin_status quoin_ray_intervals_text(const quoin_scene *scene, quoin_work *work, const char *const ray[6], const char *from, const char *to,
+                                                unsigned want, quoin_intervals *out);
+
+/* The first boundary at or after from (and not after to). */
+typedef struct quoin_hit {
+  int found;
+  int leaving;      /* the ray was inside before it: it leaves there */
+  double t;         /* correctly rounded */
+  double point[3];  /* o + t d in doubles */
+  double normal[3]; /* unit, outward from the solid, in doubles; zero at a singular point */
+  double uv[2];     /* surface parameters: angle about the axis in [0,1), and height or latitude in [0,1] */
+  quoin_part part;
+  uint32_t role;
+} quoin_hit;
+QUOIN_API quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out);
+QUOIN_API quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,43 @@
+/* The program: the solid tree as gates over leaf literals, complements pushed down to the leaves, so that a change of
+   one leaf is a walk towards the root that stops at the first gate that keeps its value.
+
+   A gate is AND or OR of its children (gates or leaf literals), flattened: no gate has a child of its own kind, and none
+   has fewer than two children, but gate 0, the root, which may have one or (an empty scene) none: an OR of none is false. */
+#ifndef QN_SCENE_PROGRAM_H
+#define QN_SCENE_PROGRAM_H
+
+#include "base/mem.h"
+
+#define QN_NO_GATE UINT32_MAX
+
+typedef struct qn_gate {
+  uint32_t parent; /* QN_NO_GATE for the root */
+  uint32_t need;   /* true children that make it true: 1 for OR, all for AND */
+  uint32_t kids;
+  uint32_t base;   /* true children when every leaf is outside */
+  uint8_t is_and;
+} qn_gate;
+
+typedef struct qn_program {
+  qn_gate *gates;
+  size_t gate_count;
+  int base; /* the root's value when every leaf is outside */
+} qn_program;
+
+/* One thread's evaluation. Starts with every leaf outside. */
+typedef struct qn_eval {
+  const qn_program *program;
+  uint32_t *count;   /* true children now, by gate */
+  uint32_t *touched; /* gates whose count may differ from base */
+  size_t touched_count;
+  size_t capacity;
+  int value;         /* the root's */
+} qn_eval;
+
+QN_NODISCARD int qn_eval_init(qn_eval *eval, const qn_program *program, qn_mem *mem); /* 0 when memory is refused */
+void qn_eval_free(qn_eval *eval, qn_mem *mem);
+void qn_eval_reset(qn_eval *eval); /* every leaf outside again; cost: what was touched */
+/* The literal of a leaf at `gate` becomes true (+1) or false (-1). Returns the root's value after it. Cost: the gates that change. */
+int qn_eval_change(qn_eval *eval, uint32_t gate, int to_true);
+
+#endif

@@ -1,0 +1,79 @@
+/* A compiled scene: leaves in order of the file, their half-spaces, the distinct surfaces, the program, the hierarchy.
+   Immutable after compilation but for the exact forms, which are made when first needed and published atomically. */
+#ifndef QN_SCENE_SCENE_H
+#define QN_SCENE_SCENE_H
+
+#include "model/solid.h"
+#include "quoin/scene.h"
+#include "scene/bvh.h"
+#include "scene/program.h"
+
+/* --- double shadows: the one door by which rounding enters. Every number here is an exact number rounded with a relative error of
+   at most u (1 + 2^-40), u = 2^-53, or an exact zero (a structural zero is stored as 0 and means 0). Coordinates are relative to
+   the leaf's pivot: y = x - pivot, where pivot is exact as stored. ------------------------------------------------------ */
+typedef struct qn_plane_shadow { double n[3], d; } qn_plane_shadow;              /* q = n . y + d */
+typedef struct qn_quadric_shadow { double row[3][4], s[3], l, k; } qn_quadric_shadow; /* X_i = row_i . (y, 1); q = sum s X^2 + 2 l X_2 + k */
+/* A superquadric uses a qn_quadric_shadow with s[0] = e, s[1] = n. */
+
+/* One half-space of a leaf, q <= 0. q is `side` times a positive multiple of its surface's exact form. */
+typedef struct qn_half {
+  uint32_t surface;
+  uint32_t shadow; /* in planes or quadrics */
+  uint32_t role;
+  int8_t side;
+  uint8_t kind;    /* qn_half_kind */
+} qn_half;
+
+typedef struct qn_leaf {
+  double pivot[3];
+  double min[3], max[3];  /* holds the leaf; infinite where unbounded */
+  uint32_t half0, halves;
+  uint32_t node;          /* in the model */
+  uint32_t material;      /* in materials: resolved along the path */
+  uint32_t gate;          /* its place in the program */
+  uint8_t negated;        /* its literal there is "outside the leaf" */
+  uint8_t prim, bounded, convex; /* convex: every half-space is, so a line meets it in at most one interval */
+} qn_leaf;
+
+/* The exact form of a surface in world coordinates, homogeneous and primitive:
+   A x2 + B y2 + C z2 + D xy + E xz + F yz + G xw + H yw + I zw + J w2, the first non-zero coefficient positive
+   (a plane: A..F are 0 and G, H, I, J are the plane, G x + H y + I z + J w). rounded: design S2's rule applies. */
+typedef struct qn_exact_surface {
+  qn_int q[10];
+  uint8_t plane, rounded;
+} qn_exact_surface;
+
+typedef struct qn_surface {
+  uint32_t leaf, half;            /* a user: halves[half] of leaves[leaf] */
+  uint32_t users;
+  uint8_t kind;
+  _Atomic(qn_exact_surface *) exact; /* null until asked for */
+} qn_surface;
+
+struct quoin_scene {
+  quoin_model *model;
+  qn_mem *mem; /* the model's */
+  qn_leaf *leaves; size_t leaf_count;
+  qn_half *halves; size_t half_count;
+  qn_plane_shadow *planes; size_t plane_count;
+  qn_quadric_shadow *quadrics; size_t quadric_count;
+  qn_surface *surfaces; size_t surface_count;
+  qn_program program;
+  qn_bvh bvh;                     /* over the bounded leaves */
+  uint32_t *unbounded; size_t unbounded_count; /* the other leaves */
+  qn_material *materials; size_t material_count; /* all parts filled in; 0 is the default material */
+  uint32_t *part_names; /* by leaf: offset in name_text */
+  char *name_text; size_t name_size;
+  int empty;
+  double min[3], max[3];          /* of the solid */
+  size_t bytes;                   /* what the arrays above take */
+};
+
+/* The exact form of a surface, made on first use. Null when memory is refused. Threads: any. */
+const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surface, int *made);
+
+/* The exact half-spaces of a leaf in world coordinates (forms under the composed exact map), into ctx: for superquadrics
+   and for tests. */
+qn_form_result qn_scene_leaf_forms(const quoin_scene *scene, uint32_t leaf, qn_ctx *ctx, qn_half_form **halves, size_t *count);
+
+#endif
