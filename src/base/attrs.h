@@ -2,6 +2,8 @@
 #ifndef QN_BASE_ATTRS_H
 #define QN_BASE_ATTRS_H
 
+#include <stdint.h>
+
 #if defined(__GNUC__)
 #define QN_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
 #define QN_NODISCARD __attribute__((warn_unused_result))
@@ -19,5 +21,13 @@
 #define QN_INLINE static inline
 #define QN_UNUSED
 #endif
+
+/* 128-bit integers: every supported compiler has them on its 64-bit machines. */
+__extension__ typedef __int128 qn_i128;
+__extension__ typedef unsigned __int128 qn_u128;
+
+/* Zero bits above the highest and below the lowest bit set; v != 0. */
+QN_INLINE unsigned qn_leading_zeros(uint64_t v) { return (unsigned)__builtin_clzll(v); }
+QN_INLINE unsigned qn_trailing_zeros(uint64_t v) { return (unsigned)__builtin_ctzll(v); }
 
 #endif

@@ -5,4 +5,106 @@
 
 #define QN_U 0x1p-53 /* unit roundoff, round to nearest */
 
+/* A hit's point o + t d in doubles, t rounded to nearest, and that point moved and rounded again, is within
+   QN_SHADE_POINT (|t d_i| + |point_i|) of the true one, coordinate by coordinate. Of use to pictures only. */
+#define QN_SHADE_POINT 0x1p-51
+
+/* The double shadow of an exact number x != 0 is within QN_SHADOW |x| of it, QN_SHADOW >= u (1 + 2^-42); a size beyond
+   QN_SHADOW_LARGEST = 2^QN_SHADOW_EXPONENT, or under its inverse, is given as that. */
+#define QN_SHADOW (QN_U * (1 + 0x1p-40))
+#define QN_SHADOW_EXPONENT 1000
+#define QN_SHADOW_LARGEST 0x1p+1000
+
+/* Fingerprints of surfaces (scene/fingerprint.c). QN_PRINT_TERM >= 22u: a world coefficient's error, relative to the sum of its terms'
+   magnitudes. A fingerprint's error is at most QN_PRINT_GROW times the sum of those errors; it is used when that is at most
+   QN_PRINT_ERROR. Cells of candidates are QN_PRINT_CELL wide. */
+#define QN_PRINT_TERM (24 * QN_U)
+#define QN_PRINT_GROW 128
+#define QN_PRINT_ERROR 0x1p-36
+#define QN_PRINT_CELL 0x1p-33
+
+/* Ray and box. QN_BOX_SLACK >= 6.05u: relative widening of the parameters at which a line meets the planes of a box.
+   QN_BOX_LARGEST: an axis with |o| or 1/|d| beyond it is not used. QN_BOX_TINY >= any loss by underflow within that range. */
+#define QN_BOX_SLACK (8 * QN_U)
+#define QN_BOX_LARGEST 0x1p+400
+#define QN_BOX_TINY 0x1p-1000
+
+/* Support functions (shape/). A sum of terms with magnitudes T, each made by at most n - 2 roundings of relative u, is increased by
+   QN_SUPPORT_SLACK(n) T and is then not below the true sum. QN_SUPPORT_TINY: a term below it gets that magnitude. */
+#define QN_SUPPORT_SLACK(n) ((n) * QN_U)
+#define QN_SUPPORT_TINY 0x1p-960
+
+/* The superquadric's norm G = ((|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n))^(n/2) as computed, x, y, z and the exponents each
+   within u: |G^ - G| <= QN_SUPER_NORM(e, n) G. Assumes pow within 1 ulp (2u). */
+#define QN_SUPER_NORM(e, n) ((10 + 2 * (e) + 2 * (n)) * QN_U)
+/* t = min/max below QN_SUPER_RATIO may have lost bits to underflow; where t^p then still counts, no bound is given. */
+#define QN_SUPER_RATIO 0x1p-1000
+/* phi(r) = (1 + r^p)^(1/p - 1), p = 2/e, r within 3u: relative error at most QN_SUPER_SLOPE(e, p) (1 + |ln r|); at QN_SUPER_SLOPE_MOST
+   and beyond it is not computed. */
+#define QN_SUPER_SLOPE(e, p) ((16 + 8 * (p) + 4 * (e)) * QN_U)
+#define QN_SUPER_SLOPE_MOST 0x1p-12
+/* Widths, as shares of the longest stretch of a line of the ray's direction in the solid's box: below QN_SUPER_NARROW a stretch is not divided (S10 promises 2^-40);
+   a root is refined in MPFR when doubles leave it wider than QN_SUPER_FINE. */
+#define QN_SUPER_NARROW 0x1p-46
+#define QN_SUPER_FINE 0x1p-44
+#define QN_SUPER_MARGIN 0x1p-30 /* the stretch is widened by this share at either end */
+/* Bits of MPFR along a ray: a sign is given when |G - 1| passes the bound above with 2^-QN_SUPER_BITS for u. */
+#define QN_SUPER_BITS 192
+
+/* One step outward: x + QN_STEP |x| + 2^-1074 is at least the next double above x. */
+#define QN_STEP 0x1p-52
+
+/* The filter along a line (ray/filter.c). Legend: y the line's origin relative to a leaf's pivot, W its weight (|y^ - y| <= u W, |y^| <= W);
+   X = row . (y, 1), Omega = sum |row_j| W_j + |row_3|; D = row . d, Delta likewise; Omega' = |X^| + QN_MAP_E Omega, Delta' = |D^| + QN_MAP_E Delta;
+   p(s) = a s^2 + 2 h s + c, S = |s_i|. Stored entries are within u (1 + 2^-40), relatively.
+     |X^ - X| <= QN_MAP_E Omega, |D^ - D| <= QN_MAP_E Delta
+     |a^ - a| <= QN_QUAD_A_E sum S Delta' Delta
+     |h^ - h| <= QN_QUAD_H_E (sum S (Omega' Delta + Omega Delta') + |l| Delta_2)
+     |c^ - c| <= QN_QUAD_C_E (sum S Omega' Omega + |l| Omega_2) + QN_QUAD_K_E |k| */
+#define QN_MAP_E (6.25 * QN_U)
+#define QN_QUAD_A_E (17.25 * QN_U)
+#define QN_QUAD_H_E (9.25 * QN_U)
+#define QN_QUAD_C_E (20.25 * QN_U)
+#define QN_QUAD_K_E (2.25 * QN_U)
+/* |disc^ - disc| <= Ed = QN_SLACK ((2|h|+Eh) Eh + (|a|+Ea) Ec + |c| Ea + QN_DISC_E (h^2 + |a c| + |disc^|)) + QN_TINY */
+#define QN_DISC_E (1.25 * QN_U)
+/* The root nearest to s is within R / sqrt(disc^ - Ed), and of a = 0 within R / (2 (|h| - Eh)), with
+   R = |p^(s)| + Ea s^2 + 2 Eh |s| + Ec + QN_ROOT_E (|a| s^2 + 2 |h s| + |c|) + QN_TINY, times QN_SLACK. */
+#define QN_ROOT_E (4.25 * QN_U)
+/* Over the roundings made in evaluating a bound. */
+#define QN_SLACK (1 + 0x1p-20)
+/* Over any loss by underflow there. */
+#define QN_TINY 0x1p-1060
+/* The filter's range: a number beyond QN_FILTER_LARGEST passes all on; one below QN_FLUSH counts as 0 with the weight
+   QN_FLUSH_WEIGHT = QN_FLUSH / u; a line is not moved by a product below QN_SHIFT_LEAST. */
+#define QN_FILTER_LARGEST 0x1p+64
+#define QN_FLUSH 0x1p-64
+#define QN_FLUSH_WEIGHT 0x1p-11
+#define QN_SHIFT_LEAST 0x1p-128
+
+/* Rounding a place (ray/round.c). Legend: x = o + t d in double-doubles, X_j = |o_j| + |t d_j|, M = sum |K_i| times the monomial i of X
+   (K the surface's coefficients), M' = sum of |d_j| times the like sum for the gradient's component j, A = the quadratic part of M at |d|.
+     |p^(t) - p(t)| <= QN_DD_EVAL M + QN_DD_TINY, |p'^ - p'| <= QN_SLOPE_E M'
+   and the root r nearest to t, |r - t| <= e, is within (QN_SLOPE_E M' e + A e^2 + QN_DD_EVAL M + QN_DD_TINY)/|p'^| + 4u |p^/p'^|
+   of t - p^/p'^, times QN_SLACK. QN_DD_LARGEST: beyond it, or below its inverse, nothing is tried. */
+#define QN_DD_EVAL 0x1p-98
+#define QN_DD_TINY 0x1p-500
+#define QN_SLOPE_E (12 * QN_U)
+#define QN_DD_LARGEST 0x1p+100
+
+/* Wide code (src/wide/solve.h). QN_WIDE_ROUND >= 14: a formula of wide code, its inputs with relative error up to 6u, is within
+   QN_WIDE_ROUND u times the sum of its terms' magnitudes. QN_WIDE_SHY: discriminants under so many times their bound are not
+   solved there; it trades rays given up against the error of the roots that are kept, and no answer depends on it. */
+#define QN_WIDE_ROUND 32
+#define QN_WIDE_SHY 0x1p14
+
+/* A point against a leaf's shadow (query/point.c). Legend as above with W the point's weight (|true y - y| <= u W, |y| <= W);
+   Omega' = |X^| + QN_POINT_MAP_E Omega. Wherever every Omega and every |s|, |l| is at most QN_POINT_LARGEST,
+     |X^ - X| <= QN_POINT_MAP_E Omega + QN_POINT_TINY
+     |q^ - q| <= QN_POINT_FORM_E (sum S Omega' Omega + |l| Omega_2 + |k|) + QN_POINT_TINY */
+#define QN_POINT_MAP_E (7 * QN_U)
+#define QN_POINT_FORM_E (24 * QN_U)
+#define QN_POINT_LARGEST 0x1p+100
+#define QN_POINT_TINY 0x1p-700
+
 #endif

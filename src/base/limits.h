@@ -17,6 +17,17 @@
    Met: Q0904 "exact number too large". */
 #define QN_MAX_BITS (1 << 17)
 
+/* Bits of the numerator or denominator of a number that is kept in a model, so that every number which a tree prints
+   has fewer than QN_MAX_DIGITS digits and can be read again. Met: Q0904 "exact number too large". */
+#define QN_MAX_KEPT_BITS (1 << 15)
+
+/* Bits of one exact number while maps and surfaces of a scene are composed: transforms nested in transforms multiply. Met:
+   QUOIN_E_LIMIT from the compilation, or from a question that needs that surface exactly. */
+#define QN_MAX_SCENE_BITS ((size_t)1 << 22)
+
+/* Vectors within vectors as values, levels; arithmetic on them may recurse so deep. Met: Q0901 "nested too deeply". */
+#define QN_MAX_VECTOR_DEPTH 64
+
 /* Bytes of one model text; places are kept in 32 bits. Met: Q0905 "file too large". */
 #define QN_MAX_TEXT ((size_t)1 << 31)
 

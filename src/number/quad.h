@@ -39,6 +39,10 @@ int qn_root_cmp_rat(qn_ctx *ctx, qn_root x, qn_int num, qn_int den);
    the one answer that every route to it must give (design S8, S9). A root of a rounded quadratic is taken from its
    stored form, with a disc whose sign is 0 by S2 taken as 0. */
 double qn_root_to_double(qn_ctx *ctx, qn_root x);
+/* The same for num/den, den > 0. */
+double qn_rat_to_double(qn_ctx *ctx, qn_int num, qn_int den);
+/* Whether the root is rational, and then num/den, den > 0 (not reduced). */
+int qn_root_rational(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den);
 /* A rational strictly between two roots x < y (num/den, den > 0, den a power of two). */
 void qn_root_between(qn_ctx *ctx, qn_root x, qn_root y, qn_int *num, qn_int *den);
 /* A rational strictly below / above a root. */

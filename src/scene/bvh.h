@@ -11,6 +11,8 @@ typedef struct qn_bvh_node {
   uint32_t child[QN_BVH_WIDE]; /* a node, or QN_BVH_LEAF | index in items; empty slots have min > max */
 } qn_bvh_node;
 #define QN_BVH_LEAF 0x80000000u
+#define QN_BVH_NONE UINT32_MAX /* the child of an empty slot */
+enum { QN_BVH_DEPTH = 40 };    /* no node is deeper: a walk's stack has a fixed size */
 
 typedef struct qn_bvh {
   qn_bvh_node *nodes;
@@ -25,7 +27,8 @@ QN_NODISCARD quoin_status qn_bvh_build(qn_bvh *bvh, qn_mem *mem, size_t n, const
 void qn_bvh_free(qn_bvh *bvh, qn_mem *mem);
 
 /* Calls visit for each leaf whose box the line o + t d, t in [from, to], may meet: every leaf it does meet, and few
-   others. Conservative in spite of rounding (docs/bounds.md, QN_BOX_SLACK). Adds the nodes visited to *nodes. */
+   others. Conservative in spite of rounding (docs/bounds.md, QN_BOX_SLACK), also of the line: each of o and d may have been
+   rounded to nearest (barring over- and underflow: 0 stands for 0), and so may from and to. Adds the nodes visited to *nodes. */
 void qn_bvh_line(const qn_bvh *bvh, const double o[3], const double d[3], double from, double to, void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes);
 /* The same for the point whose coordinates lie in [min, max] (an enclosure of it). */
 void qn_bvh_point(const qn_bvh *bvh, const double min[3], const double max[3], void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes);

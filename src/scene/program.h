@@ -2,7 +2,8 @@
    one leaf is a walk towards the root that stops at the first gate that keeps its value.
 
    A gate is AND or OR of its children (gates or leaf literals), flattened: no gate has a child of its own kind, and none
-   has fewer than two children, but gate 0, the root, which may have one or (an empty scene) none: an OR of none is false. */
+   has fewer than two children, but gate 0, the root, which may have one or none: an OR of none is false (an empty scene),
+   an AND of none is true (all of space). A parent's number is below its children's. */
 #ifndef QN_SCENE_PROGRAM_H
 #define QN_SCENE_PROGRAM_H
 
@@ -24,13 +25,29 @@ typedef struct qn_program {
   int base; /* the root's value when every leaf is outside */
 } qn_program;
 
+/* What a program is made of: a tree in prefix order (a parent before its children), in negation normal form. */
+typedef enum qn_term_kind { QN_TERM_OR, QN_TERM_AND, QN_TERM_LEAF, QN_TERM_FALSE, QN_TERM_TRUE } qn_term_kind;
+typedef struct qn_term {
+  uint32_t parent;  /* QN_NO_GATE for term 0, the root */
+  uint32_t leaf;    /* of a LEAF: the caller's number, not looked at */
+  uint32_t gate;    /* result: of a LEAF that was kept, its gate; else QN_NO_GATE */
+  uint8_t kind;
+  uint8_t negated;  /* of a LEAF: the literal is "outside the leaf" */
+} qn_term;
+
+/* Folds constants, flattens, and numbers the gates in prefix order. Writes terms[].gate, and may turn gates of the terms into constants.
+   Linear, no recursion. QUOIN_E_MEMORY or QUOIN_OK. */
+QN_NODISCARD quoin_status qn_program_build(qn_program *program, qn_mem *mem, qn_term *terms, size_t count);
+void qn_program_free(qn_program *program, qn_mem *mem);
+
 /* One thread's evaluation. Starts with every leaf outside. */
 typedef struct qn_eval {
   const qn_program *program;
   uint32_t *count;   /* true children now, by gate */
-  uint32_t *touched; /* gates whose count may differ from base */
+  uint32_t *touched; /* gates whose count may differ from base, each once */
+  uint8_t *listed;   /* by gate: is in touched */
   size_t touched_count;
-  size_t capacity;
+  size_t capacity;   /* of the three arrays: the gates */
   int value;         /* the root's */
 } qn_eval;
 

@@ -6,11 +6,14 @@
 #include "model/solid.h"
 #include "quoin/scene.h"
 #include "scene/bvh.h"
+#include "scene/normal.h"
+#include "scene/piece.h"
 #include "scene/program.h"
 
 /* --- double shadows: the one door by which rounding enters. Every number here is an exact number rounded with a relative error of
-   at most u (1 + 2^-40), u = 2^-53, or an exact zero (a structural zero is stored as 0 and means 0). Coordinates are relative to
-   the leaf's pivot: y = x - pivot, where pivot is exact as stored. ------------------------------------------------------ */
+   at most u (1 + 2^-40), u = 2^-53, or an exact zero (a structural zero is stored as 0 and means 0). A number of a size beyond 2^1000 or under 2^-1000 is
+   stored as that size with its sign: filters take sizes outside [2^-100, 2^100] to the exact tier anyway. Coordinates are relative
+   to the leaf's pivot: y = x - pivot, where pivot is exact as stored. ---------------------------------------------------- */
 typedef struct qn_plane_shadow { double n[3], d; } qn_plane_shadow;              /* q = n . y + d */
 typedef struct qn_quadric_shadow { double row[3][4], s[3], l, k; } qn_quadric_shadow; /* X_i = row_i . (y, 1); q = sum s X^2 + 2 l X_2 + k */
 /* A superquadric uses a qn_quadric_shadow with s[0] = e, s[1] = n. */
@@ -57,19 +60,24 @@ struct quoin_scene {
   qn_half *halves; size_t half_count;
   qn_plane_shadow *planes; size_t plane_count;
   qn_quadric_shadow *quadrics; size_t quadric_count;
-  qn_surface *surfaces; size_t surface_count;
+  qn_surface *surfaces; size_t surface_count, surface_room;
   qn_program program;
   qn_bvh bvh;                     /* over the bounded leaves */
   uint32_t *unbounded; size_t unbounded_count; /* the other leaves */
+  qn_normal normal;
+  void *lines; size_t line_count; /* pieces, in cache lines */
+  uint32_t *line_of;              /* by leaf: its piece's first line */
   qn_material *materials; size_t material_count; /* all parts filled in; 0 is the default material */
   uint32_t *part_names; /* by leaf: offset in name_text */
+  size_t part_name_room; /* entries that part_names has room for */
   char *name_text; size_t name_size;
   int empty;
   double min[3], max[3];          /* of the solid */
   size_t bytes;                   /* what the arrays above take */
 };
 
-/* The exact form of a surface, made on first use. Null when memory is refused. Threads: any. */
+/* The exact form of a surface, made on first use; then *made (may be null) is set to 1, else to 0. Null when memory is refused, or its numbers pass
+   QN_MAX_SCENE_BITS, and for superquadrics, which have none. Threads: any. */
 const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surface, int *made);
 
 /* The exact half-spaces of a leaf in world coordinates (forms under the composed exact map), into ctx: for superquadrics

@@ -1,0 +1,95 @@
+#include "cli/load.h"
+#include "cli/say.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+double cli_clock(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+const char *cli_model_operand(const cli_command *command, const cli_common *common) {
+  if (common->operand_count == 0) {
+    cli_error("no MODEL given: quoin %s %s", command->name, command->operands);
+    cli_try_help(command);
+    return NULL;
+  }
+  return common->operands[0];
+}
+
+quoin_status cli_read(const cli_common *common, const char *path, int compile, cli_loaded *out) {
+  *out = (cli_loaded){.path = path};
+  double start = cli_clock();
+  quoin_status status = quoin_model_new(NULL, &out->model);
+  if (status == QUOIN_OK) {
+    quoin_read_options options = quoin_read_options_default();
+    options.facets = common->facets;
+    errno = 0;
+    status = quoin_model_read_file(out->model, QUOIN_ROOT, path, &options);
+  }
+  double middle = cli_clock();
+  out->read_seconds = middle - start;
+  if (status == QUOIN_OK && compile) {
+    quoin_compile_options options = quoin_compile_options_default();
+    options.threads = common->threads;
+    status = quoin_scene_compile(out->model, &options, &out->scene);
+    out->compile_seconds = cli_clock() - middle;
+  }
+  return status;
+}
+
+int cli_load(const cli_common *common, const char *path, int compile, cli_loaded *out) {
+  quoin_status status = cli_read(common, path, compile, out);
+  int system_error = errno;
+  size_t errors = out->model ? cli_say_diags(out->model, common->quiet) : 0;
+  if (status != QUOIN_OK && errors == 0) {
+    cli_quoted q;
+    cli_error("%s: %s", cli_quote(&q, path), status == QUOIN_E_IO && system_error ? strerror(system_error) : quoin_status_text(status));
+  }
+  return cli_code(status);
+}
+
+void cli_unload(cli_loaded *loaded) {
+  quoin_scene_free(loaded->scene);
+  quoin_model_free(loaded->model);
+  loaded->scene = NULL;
+  loaded->model = NULL;
+}
+
+void cli_say_load_stats(const cli_loaded *loaded) {
+  fprintf(stderr, "read_seconds %.6f\n", loaded->read_seconds);
+  if (loaded->scene) {
+    quoin_scene_info info;
+    quoin_scene_get_info(loaded->scene, &info);
+    fprintf(stderr, "compile_seconds %.6f\n", loaded->compile_seconds);
+    fprintf(stderr, "scene_leaves %zu\nscene_surfaces %zu\nscene_distinct_surfaces %zu\nscene_bytes %zu\n", info.leaves, info.surfaces,
+            info.distinct_surfaces, info.memory);
+  }
+}
+
+/* The counters by name, for printing and for summing. */
+#define COUNTERS(each) \
+  each(rays) each(points) each(nodes) each(leaves) each(filter_sure) each(exact_signs) each(exact_orders) each(exact_rays) \
+    each(exact_roundings) each(exact_forms)
+
+void cli_say_work_stats(const quoin_stats *stats) {
+#define SAY(counter) fprintf(stderr, #counter " %" PRIu64 "\n", stats->counter);
+  COUNTERS(SAY)
+#undef SAY
+}
+
+void cli_add_work_stats(const quoin_work *work, quoin_stats *sum) {
+  if (!work) {
+    return;
+  }
+  quoin_stats stats;
+  quoin_work_stats(work, &stats);
+#define ADD(counter) sum->counter += stats.counter;
+  COUNTERS(ADD)
+#undef ADD
+}

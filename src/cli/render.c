@@ -1,0 +1,300 @@
+/* quoin render: a picture of a model. */
+#include "cli/commands.h"
+#include "cli/load.h"
+#include "cli/say.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { OUTPUT = CLI_OWN, IMGSIZE, CAMERA, PROJECTION, FOV, NO_ANTIALIAS, SAMPLES, NO_SHADOWS, PROGRESS };
+
+static const cli_option options[] = {
+  {OUTPUT, 'o', "output", "FILE", "the PNG file to write, whole or not at all; - is standard output"},
+  {IMGSIZE, 0, "imgsize", "W,H", "the picture's size in pixels, 800,600 unless given"},
+  {CAMERA, 0, "camera", "EX,EY,EZ,CX,CY,CZ", "look from the eye E to the point C, z up"},
+  {PROJECTION, 0, "projection", "ortho|persp", "parallel or perspective, the default"},
+  {FOV, 0, "fov", "DEG", "the vertical field of view in degrees, above 0 and below 180"},
+  {NO_ANTIALIAS, 0, "no-antialias", NULL, "one sample a pixel"},
+  {SAMPLES, 0, "samples", "N", "samples of a pixel at an edge: 4, 9, 16 (the default), 25, ... 256"},
+  {NO_SHADOWS, 0, "no-shadows", NULL, "lights cast no shadows"},
+  {PROGRESS, 0, "progress", NULL, "show progress if standard error is a terminal"},
+  CLI_COMMON_OPTIONS,
+};
+
+typedef struct job {
+  const char *output;
+  quoin_render_options options;
+  int has_camera, has_projection, has_fov, progress;
+  double camera[6], fov;
+  quoin_projection projection;
+  int shown; /* the percentage on the terminal */
+} job;
+
+static int take_size(job *j, const char *value) {
+  /* A row of a PNG, and all of it in memory, are bounded by this. */
+  enum { MOST = 32768 };
+  unsigned long size[2] = {0, 0};
+  const char *at = value;
+  int good = 1;
+  for (int i = 0; i < 2 && good; i++) {
+    size_t digits = strspn(at, "0123456789");
+    good = digits > 0 && digits < 7;
+    size[i] = good ? strtoul(at, NULL, 10) : 0;
+    at += digits;
+    good = good && size[i] >= 1 && size[i] <= MOST && (i ? *at == '\0' : *at == ',' || *at == 'x');
+    at += i == 0 && *at;
+  }
+  if (!good) {
+    cli_quoted q;
+    cli_error("%s is not a value for --imgsize; give width,height, each from 1 to %d", cli_quote(&q, value), MOST);
+    return -1;
+  }
+  j->options.width = size[0];
+  j->options.height = size[1];
+  return 0;
+}
+
+static int take(void *user, int id, const char *value) {
+  job *j = user;
+  cli_quoted q;
+  switch (id) {
+  case OUTPUT: j->output = value; return 0;
+  case IMGSIZE: return take_size(j, value);
+  case CAMERA:
+    j->has_camera = 1;
+    if (cli_take_numbers("camera", value, 6, j->camera)) {
+      return -1;
+    }
+    if (j->camera[0] == j->camera[3] && j->camera[1] == j->camera[4] && j->camera[2] == j->camera[5]) {
+      cli_error("%s is not a value for --camera; the eye and the point it looks at are the same", cli_quote(&q, value));
+      return -1;
+    }
+    return 0;
+  case PROJECTION:
+    j->has_projection = 1;
+    if (strcmp(value, "ortho") == 0 || strcmp(value, "o") == 0) {
+      j->projection = QUOIN_ORTHOGRAPHIC;
+    } else if (strcmp(value, "persp") == 0 || strcmp(value, "p") == 0) {
+      j->projection = QUOIN_PERSPECTIVE;
+    } else {
+      cli_error("%s is not a value for --projection; give ortho or persp", cli_quote(&q, value));
+      return -1;
+    }
+    return 0;
+  case FOV:
+    j->has_fov = 1;
+    if (cli_take_numbers("fov", value, 1, &j->fov)) {
+      return -1;
+    }
+    if (!(j->fov > 0 && j->fov < 180)) {
+      cli_error("%s is not a value for --fov; give degrees above 0 and below 180", cli_quote(&q, value));
+      return -1;
+    }
+    return 0;
+  case NO_ANTIALIAS: j->options.antialias = 0; return 0;
+  case SAMPLES: {
+    unsigned n, root = 1;
+    if (cli_take_unsigned("samples", value, 1, 256, &n)) {
+      return -1;
+    }
+    while (root * root < n) {
+      root++;
+    }
+    if (root * root != n) {
+      cli_error("%s is not a value for --samples; give a square number, for instance %u", cli_quote(&q, value), root * root);
+      return -1;
+    }
+    j->options.samples = n;
+    return 0;
+  }
+  case NO_SHADOWS: j->options.shadows = 0; return 0;
+  case PROGRESS: j->progress = 1; return 0;
+  default: return -1;
+  }
+}
+
+/* Moves a camera that frames the solid so that it does with another field of view.
+
+   Legend: e eye, l look, D = |e - l|, w = (e - l)/D, r and u the picture's right and up, s = tan(fov/2), a the aspect.
+   Orthographic: the picture is 2 s D high, so s D stays; the eye stays and look moves. Perspective: a corner l + v of the
+   solid's box is in the picture if |v.r| <= a s (D - v.w) and |v.u| <= s (D - v.w), so D is the greatest of
+   v.w + |v.r|/(a s) and v.w + |v.u|/s over the corners; look stays and the eye moves. */
+static void refit(quoin_camera *camera, const quoin_scene *scene, double aspect, double fov) {
+  const double half = atan(1.0) / 90.0; /* half a degree in radians */
+  const double fill = 0.92; /* of the picture, the rest is margin */
+  double old = tan(camera->fov * half), s = tan(fov * half), w[3], u[3], r[3], length = 0;
+  for (int i = 0; i < 3; i++) {
+    w[i] = camera->eye[i] - camera->look[i];
+    length = hypot(length, w[i]);
+  }
+  if (camera->projection == QUOIN_ORTHOGRAPHIC) {
+    for (int i = 0; i < 3; i++) {
+      camera->look[i] = camera->eye[i] - w[i] * (old / s);
+    }
+    return;
+  }
+  double along = 0, upright = 0; /* u: up, less its part along w; r = u x w */
+  for (int i = 0; i < 3; i++) {
+    w[i] /= length;
+    along += camera->up[i] * w[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    u[i] = camera->up[i] - along * w[i];
+    upright = hypot(upright, u[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    u[i] /= upright;
+  }
+  for (int i = 0; i < 3; i++) {
+    r[i] = u[(i + 1) % 3] * w[(i + 2) % 3] - u[(i + 2) % 3] * w[(i + 1) % 3];
+  }
+  quoin_scene_info info;
+  quoin_scene_get_info(scene, &info);
+  double distance = 0;
+  for (int corner = 0; corner < 8 && !info.empty && !info.unbounded; corner++) {
+    double vw = 0, vr = 0, vu = 0;
+    for (int i = 0; i < 3; i++) {
+      double v = (corner >> i & 1 ? info.box_max[i] : info.box_min[i]) - camera->look[i];
+      vw += v * w[i];
+      vr += v * r[i];
+      vu += v * u[i];
+    }
+    distance = fmax(distance, vw + fmax(fabs(vr) / aspect, fabs(vu)) / (fill * s));
+  }
+  distance = distance > 0 ? distance : length * (old / s); /* no box: what is at the distance of look keeps its size */
+  for (int i = 0; i < 3; i++) {
+    camera->eye[i] = camera->look[i] + distance * w[i];
+  }
+}
+
+/* The camera of --camera, --projection and --fov; without --camera the other two frame the solid anew. */
+static void set_camera(job *j, const quoin_scene *scene) {
+  if (!j->has_camera && !j->has_projection && !j->has_fov) {
+    return; /* the model's, or the default view */
+  }
+  quoin_camera *camera = &j->options.camera;
+  j->options.has_camera = 1;
+  quoin_camera_default(scene, (double)j->options.width / (double)j->options.height, j->projection, camera);
+  if (j->has_camera) {
+    memcpy(camera->eye, j->camera, sizeof camera->eye);
+    memcpy(camera->look, j->camera + 3, sizeof camera->look);
+    int vertical = camera->eye[0] == camera->look[0] && camera->eye[1] == camera->look[1];
+    const double up[3] = {0, vertical, !vertical}; /* looking straight down or up, y is up in the picture */
+    memcpy(camera->up, up, sizeof up);
+    camera->near = 0;
+  } else if (j->has_fov) {
+    refit(camera, scene, (double)j->options.width / (double)j->options.height, j->fov);
+  }
+  if (j->has_fov) {
+    camera->fov = j->fov;
+  }
+}
+
+static int report(void *user, double done) {
+  job *j = user;
+  int percent = (int)(100 * done);
+  if (percent != j->shown) {
+    j->shown = percent;
+    fprintf(stderr, "\rrendering %3d%%", percent);
+    fflush(stderr);
+  }
+  return 0;
+}
+
+static int render(job *j, const cli_common *common, const quoin_scene *scene) {
+  size_t row = 4 * j->options.width;
+  unsigned char *pixels = malloc(row * j->options.height);
+  if (!pixels) {
+    cli_error("%s for a picture of %zu x %zu", quoin_status_text(QUOIN_E_MEMORY), j->options.width, j->options.height);
+    return CLI_IO;
+  }
+  int show = j->progress && isatty(STDERR_FILENO);
+  if (show) {
+    j->shown = -1;
+    j->options.progress = (quoin_progress){report, j};
+  }
+  set_camera(j, scene);
+  j->options.threads = common->threads;
+  double start = cli_clock();
+  quoin_render_stats stats;
+  memset(&stats, 0, sizeof stats);
+  quoin_status status = quoin_render(scene, &j->options, pixels, row, &stats);
+  double middle = cli_clock();
+  if (show) {
+    fputs("\r               \r", stderr);
+  }
+  int code = cli_code(status);
+  if (status != QUOIN_OK) {
+    cli_error("cannot render: %s", quoin_status_text(status));
+  } else {
+    errno = 0;
+    status = quoin_write_png(j->output, j->options.width, j->options.height, pixels, row);
+    int system_error = errno, to_stdout = strcmp(j->output, "-") == 0;
+    if (status != QUOIN_OK && !(to_stdout && system_error == EPIPE)) {
+      cli_quoted q;
+      cli_error("cannot write %s: %s", to_stdout ? "standard output" : cli_quote(&q, j->output),
+                status == QUOIN_E_IO && system_error ? strerror(system_error) : quoin_status_text(status));
+    }
+    code = cli_code(status);
+    if (to_stdout && code == CLI_OK && close(STDOUT_FILENO) && errno != EINTR) {
+      cli_error("cannot write standard output: %s", strerror(errno));
+      code = CLI_IO;
+    }
+  }
+  free(pixels);
+  if (common->stats) {
+    fprintf(stderr, "render_seconds %.6f\nwrite_seconds %.6f\n", middle - start, cli_clock() - middle);
+    fprintf(stderr, "camera_rays %llu\nshadow_rays %llu\nrefined_pixels %llu\n", (unsigned long long)stats.camera_rays,
+            (unsigned long long)stats.shadow_rays, (unsigned long long)stats.refined_pixels);
+    cli_say_work_stats(&stats.work);
+  }
+  return code;
+}
+
+static int run(const cli_command *self, int argc, char **argv) {
+  job j = {.options = quoin_render_options_default(), .projection = QUOIN_PERSPECTIVE};
+  cli_common common;
+  int code = cli_parse(self, argc, argv, &common, take, &j);
+  if (code >= 0) {
+    return code;
+  }
+  const char *path = cli_model_operand(self, &common);
+  if (!path) {
+    return CLI_USAGE;
+  }
+  if (common.operand_count > 1) {
+    cli_quoted q;
+    cli_error("one MODEL at a time: %s is one too many", cli_quote(&q, common.operands[1]));
+    return cli_try_help(self);
+  }
+  if (!j.output) {
+    cli_error("no file to write to; add -o OUT.png");
+    return cli_try_help(self);
+  }
+  cli_loaded loaded;
+  code = cli_load(&common, path, 1, &loaded);
+  if (common.stats) {
+    cli_say_load_stats(&loaded);
+  }
+  if (code == CLI_OK) {
+    code = render(&j, &common, loaded.scene);
+  }
+  cli_unload(&loaded);
+  return code;
+}
+
+const cli_command cli_render_command = {
+  "render",
+  "MODEL -o OUT.png",
+  "Draw a model as a PNG picture.",
+  "Without --camera the picture is taken by the model's own camera(), else from a point that frames the whole solid; so it is\n"
+  "when only --projection or --fov is given. Curved surfaces are exact: there are no facets and no $fn is needed.\n"
+  "Pixels next to another surface or another light get more samples. The picture does not depend on --threads.\n",
+  options,
+  run,
+};

@@ -1,0 +1,148 @@
+#include "cli/rows.h"
+#include "cli/say.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static int is_blank(char c) {
+  return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\v' || c == '\f';
+}
+
+void cli_row_cut(cli_row *row, char *line, char *end) {
+  row->line = line;
+  row->end = end;
+  row->count = 0;
+  row->junk = NULL;
+  char *at = line;
+  while (row->count <= CLI_MAX_NUMBERS) {
+    while (at < end && is_blank(*at)) {
+      at++;
+    }
+    if (at == end || *at == '#') {
+      return;
+    }
+    char *start = at;
+    while (at < end && !is_blank(*at) && *at != '#') {
+      if (*at == '\0' && !row->junk) {
+        row->junk = at;
+      }
+      at++;
+    }
+    int comment = at < end && *at == '#';
+    unsigned i = row->count++;
+    row->numbers[i] = start;
+    row->cut[i] = at;
+    row->under[i] = *at;
+    *at = '\0';
+    if (at == end || comment) {
+      return;
+    }
+    at++;
+  }
+}
+
+void cli_row_mend(cli_row *row) {
+  for (unsigned i = 0; i < row->count; i++) {
+    *row->cut[i] = row->under[i];
+  }
+}
+
+/* Marks the bytes [from, to) of the mended row. */
+static void mark(cli_fault *fault, const cli_row *row, const char *from, const char *to, uint64_t line) {
+  fault->line = line;
+  fault->column = (size_t)(from - row->line) + 1;
+  fault->length = to > from ? (size_t)(to - from) : 1;
+  size_t length = (size_t)(row->end - row->line);
+  length -= length > 0 && row->line[length - 1] == '\r';
+  int shown = length < sizeof fault->source; /* the caret under a longer line would not be where one sees it */
+  for (size_t i = 0; i < length && shown; i++) {
+    shown = (unsigned char)row->line[i] >= 32 || row->line[i] == '\t'; /* nor are binary bytes worth a look */
+  }
+  length = shown ? length : 0;
+  memcpy(fault->source, row->line, length);
+  fault->source[length] = '\0';
+}
+
+int cli_row_fault(cli_row *row, const cli_row_kind *kind, uint64_t line, cli_fault *fault) {
+  if (!row->junk && row->count == kind->numbers) {
+    return 0;
+  }
+  fault->status = QUOIN_E_NUMBER;
+  fault->reason = "";
+  cli_row_mend(row);
+  if (row->junk) {
+    mark(fault, row, row->junk, row->junk + 1, line);
+    snprintf(fault->problem, sizeof fault->problem, "a NUL byte among the numbers");
+    fault->reason = "this is no text";
+    fault->code = "Q1002";
+  } else {
+    int more = row->count > kind->numbers;
+    unsigned i = more ? kind->numbers : row->count - 1; /* the first too many, or the last there is; an empty row is no row */
+    mark(fault, row, row->numbers[i], row->cut[i], line);
+    snprintf(fault->problem, sizeof fault->problem, "a %s is %u numbers: %s", kind->what, kind->numbers, kind->shape);
+    fault->reason = more ? "here are more" : "here are fewer";
+    fault->code = "Q1003";
+  }
+  return 1;
+}
+
+unsigned cli_first_bad_number(const quoin_scene *scene, quoin_work *work, const char *const *numbers, unsigned n) {
+  for (unsigned i = 0; i < n; i++) { /* the library alone decides what a number is */
+    const char *const probe[3] = {numbers[i], "0", "0"};
+    quoin_side side;
+    quoin_status status = quoin_point_side_text(scene, work, probe, &side);
+    if (status == QUOIN_E_NUMBER || status == QUOIN_E_LIMIT) {
+      return i;
+    }
+  }
+  return n;
+}
+
+int cli_is_zero(const char *number) {
+  for (; *number && *number != 'e' && *number != 'E'; number++) {
+    if (*number >= '1' && *number <= '9') {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+void cli_row_refused(cli_row *row, const quoin_scene *scene, quoin_work *work, quoin_status status, uint64_t line, cli_fault *fault) {
+  int by_number = status == QUOIN_E_NUMBER || status == QUOIN_E_LIMIT;
+  unsigned bad = by_number ? cli_first_bad_number(scene, work, row->numbers, row->count) : row->count;
+  int no_direction = status == QUOIN_E_ARGUMENT && row->count == 6 && cli_is_zero(row->numbers[3]) && cli_is_zero(row->numbers[4]) &&
+                     cli_is_zero(row->numbers[5]);
+  fault->status = status;
+  fault->reason = "";
+  fault->code = "Q1004";
+  if (bad < row->count) {
+    cli_quoted q;
+    snprintf(fault->problem, sizeof fault->problem, "%s is not a number", cli_quote(&q, row->numbers[bad]));
+    fault->reason = CLI_NUMBER_RULE(status);
+    fault->code = "Q1001";
+    fault->status = QUOIN_E_NUMBER;
+  } else if (no_direction) {
+    snprintf(fault->problem, sizeof fault->problem, "the ray's direction is zero");
+  } else {
+    snprintf(fault->problem, sizeof fault->problem, "no answer: %s", quoin_status_text(status));
+  }
+  cli_row_mend(row);
+  unsigned first = bad < row->count ? bad : no_direction ? 3 : 0;
+  mark(fault, row, row->numbers[first], row->cut[bad < row->count ? bad : row->count - 1], line);
+}
+
+void cli_say_fault(const cli_fault *fault, const char *file) {
+  quoin_diag diag = {
+    .severity = QUOIN_ERROR,
+    .code = fault->code,
+    .file = file,
+    .line = fault->line > UINT32_MAX ? UINT32_MAX : (uint32_t)fault->line,
+    .column = fault->column > UINT32_MAX ? UINT32_MAX : (uint32_t)fault->column,
+    .length = fault->length > UINT32_MAX ? UINT32_MAX : (uint32_t)fault->length,
+    .problem = fault->problem,
+    .reason = fault->reason,
+    .way_out = "",
+    .source = fault->source,
+  };
+  cli_say_diag(&diag);
+}

@@ -1,0 +1,120 @@
+/* The first boundary along a ray, with what a picture wants of it. Which boundary it is, is exact; point, normal and (u, v)
+   are doubles made for that one hit.
+
+   Legend: y = o - pivot + t d; a leaf's half-space q <= 0 has its gradient outward of the leaf: a plane's n, a quadric's
+   2 sum s_i X_i row_i + 2 l row_2, a superquadric's by the chain rule. Where the leaf is taken away (its literal is negated) the solid's
+   outward normal is the other way. */
+#include "query/work.h"
+
+#include <math.h>
+
+static void gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]) {
+  g[0] = g[1] = g[2] = 0;
+  if (half->kind == QN_PLANE) {
+    for (int j = 0; j < 3; j++) {
+      g[j] = scene->planes[half->shadow].n[j];
+    }
+    return;
+  }
+  const qn_quadric_shadow *q = &scene->quadrics[half->shadow];
+  double X[3], slope[3];
+  for (int i = 0; i < 3; i++) {
+    X[i] = ((q->row[i][0] * y[0] + q->row[i][1] * y[1]) + q->row[i][2] * y[2]) + q->row[i][3];
+    slope[i] = q->s[i] * X[i] + (i == 2 ? q->l : 0);
+  }
+  if (half->kind == QN_SUPER_BODY) {
+    qn_superquadric_gradient(q->s[0], q->s[1], X, slope);
+  }
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      g[j] += slope[i] * q->row[i][j];
+    }
+  }
+}
+
+/* To unit length, turned by way; left at zero when it has no direction. */
+static void unit(double g[3], double way) {
+  double most = fmax(fabs(g[0]), fmax(fabs(g[1]), fabs(g[2])));
+  if (!(most > 0) || !isfinite(most)) {
+    g[0] = g[1] = g[2] = 0;
+    return;
+  }
+  double x = g[0] / most, y = g[1] / most, z = g[2] / most, scale = way / sqrt(x * x + y * y + z * z);
+  g[0] = x * scale + 0.0, g[1] = y * scale + 0.0, g[2] = z * scale + 0.0; /* no negative zeros */
+}
+
+static quoin_status describe(quoin_work *work, const quoin_ray *ray, qn_line *line, const qn_stop *stop, int leaving, quoin_hit *out) {
+  const quoin_scene *scene = work->scene;
+  const qn_leaf *leaf = &scene->leaves[stop->leaf];
+  const qn_half *half = &scene->halves[stop->half];
+  *out = (quoin_hit){.found = 1, .leaving = leaving, .part = stop->leaf, .role = half->role};
+  out->t = qn_place_round(scene, work->scratch, line, &stop->place);
+  double y[3];
+  for (int i = 0; i < 3; i++) {
+    out->point[i] = ray->o[i] + out->t * ray->d[i];
+    y[i] = (ray->o[i] - leaf->pivot[i]) + out->t * ray->d[i];
+  }
+  gradient(scene, half, y, out->normal);
+  unit(out->normal, leaf->negated ? -1 : 1);
+  const qn_local *local = qn_query_local(work, stop->leaf);
+  if (!local) {
+    return QUOIN_E_MEMORY;
+  }
+  const qn_prim_row *row = &qn_prims[leaf->prim];
+  if (!local->singular && row->uv) {
+    double x[3];
+    for (int i = 0; i < 3; i++) {
+      const double *m = local->inverse + 4 * i;
+      x[i] = ((m[0] * out->point[0] + m[1] * out->point[1]) + m[2] * out->point[2]) + m[3];
+    }
+    row->uv(local->args, local->arg_count, local->placed ? local->placement : NULL, half->role, x, out->uv);
+  }
+  return QUOIN_OK;
+}
+
+quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out) {
+  if (!scene || !work || work->scene != scene || !ray || !out) {
+    return QUOIN_E_ARGUMENT;
+  }
+  int any = 0;
+  for (int i = 0; i < 3; i++) {
+    if (!isfinite(ray->o[i]) || !isfinite(ray->d[i])) {
+      return QUOIN_E_ARGUMENT;
+    }
+    any |= ray->d[i] != 0;
+  }
+  if (!any || !(ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  *out = (quoin_hit){.part = QUOIN_NO_PART};
+  qn_query_begin(work);
+  qn_line line;
+  qn_line_from_doubles(ray->o, ray->d, &line);
+  const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
+  qn_woven woven;
+  quoin_status status = qn_weave(scene, work->scratch, &line, &range, QN_WANT_FIRST, &woven);
+  if (status != QUOIN_OK || woven.inside_count == 0) {
+    return status;
+  }
+  const qn_stretch *first = &woven.inside[0];
+  int leaving = first->enter.leaf == UINT32_MAX; /* inside from the beginning on */
+  const qn_stop *stop = leaving ? &first->leave : &first->enter;
+  if (stop->leaf == UINT32_MAX) {
+    return QUOIN_OK; /* inside all along */
+  }
+  status = describe(work, ray, &line, stop, leaving, out);
+  return status == QUOIN_OK ? qn_scratch_ctx(work->scratch)->failed : status;
+}
+
+quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out) {
+  if (!scene || !work || work->scene != scene || (n != 0 && (!rays || !out))) {
+    return QUOIN_E_ARGUMENT;
+  }
+  for (size_t i = 0; i < n; i++) {
+    quoin_status status = quoin_first_hit(scene, work, &rays[i], &out[i]);
+    if (status != QUOIN_OK) {
+      return status;
+    }
+  }
+  return QUOIN_OK;
+}

@@ -1,0 +1,141 @@
+/* All stretches of a ray, as the public answer: places become correctly rounded parameters, ends get their part and surface. */
+#include "query/work.h"
+
+#include <math.h>
+
+static quoin_end end_of(quoin_work *work, qn_line *line, const qn_stop *stop) {
+  quoin_end end = {.t = qn_place_round(work->scene, work->scratch, line, &stop->place), .part = QUOIN_NO_PART, .role = QUOIN_BODY};
+  if (stop->leaf != UINT32_MAX) {
+    end.part = stop->leaf;
+    end.role = stop->half == UINT32_MAX ? QUOIN_BODY : work->scene->halves[stop->half].role;
+  }
+  return end;
+}
+
+static quoin_status stretches(quoin_work *work, qn_line *line, size_t n, const qn_stretch *from, quoin_interval **to, size_t *capacity) {
+  if (!qn_grow(work->mem, to, capacity, n)) {
+    return QUOIN_E_MEMORY;
+  }
+  for (size_t i = 0; i < n; i++) {
+    (*to)[i] = (quoin_interval){end_of(work, line, &from[i].enter), end_of(work, line, &from[i].leave)};
+  }
+  return QUOIN_OK;
+}
+
+static quoin_status answer(quoin_work *work, qn_line *line, const qn_range *range, unsigned want, quoin_intervals *out) {
+  qn_woven woven;
+  quoin_status status = qn_weave(work->scene, work->scratch, line, range, want, &woven);
+  if (status == QUOIN_OK) {
+    status = stretches(work, line, woven.inside_count, woven.inside, &work->inside, &work->inside_capacity);
+  }
+  if (status == QUOIN_OK) {
+    status = stretches(work, line, woven.boundary_count, woven.boundary, &work->boundary, &work->boundary_capacity);
+  }
+  if (status == QUOIN_OK && !qn_grow(work->mem, &work->contacts, &work->contact_capacity, woven.contact_count)) {
+    status = QUOIN_E_MEMORY;
+  }
+  if (status != QUOIN_OK) {
+    return status;
+  }
+  for (size_t i = 0; i < woven.contact_count; i++) {
+    work->contacts[i] = end_of(work, line, &woven.contacts[i]);
+  }
+  *out = (quoin_intervals){woven.inside_count, work->inside, woven.boundary_count, work->boundary, woven.contact_count, work->contacts};
+  return qn_scratch_ctx(work->scratch)->failed;
+}
+
+/* Finite, a direction, and a range that is not empty of sense. */
+static int is_ray(const quoin_ray *ray) {
+  int any = 0;
+  for (int i = 0; i < 3; i++) {
+    if (!isfinite(ray->o[i]) || !isfinite(ray->d[i])) {
+      return 0;
+    }
+    any |= ray->d[i] != 0;
+  }
+  return any && ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL; /* a NaN fails the first */
+}
+
+quoin_status quoin_ray_intervals(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, unsigned want, quoin_intervals *out) {
+  if (!scene || !work || work->scene != scene || !ray || !out || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS) || !is_ray(ray)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  qn_line line;
+  qn_query_begin(work);
+  qn_line_from_doubles(ray->o, ray->d, &line);
+  const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
+  return answer(work, &line, &range, want, out);
+}
+
+quoin_status quoin_ray_intervals_many(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want,
+                                      int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
+  if (!each || (n != 0 && !rays)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  for (size_t i = 0; i < n; i++) {
+    quoin_intervals one;
+    quoin_status status = quoin_ray_intervals(scene, work, &rays[i], want, &one);
+    if (status != QUOIN_OK) {
+      return status;
+    }
+    if (each(user, i, &one) != 0) {
+      return QUOIN_E_CANCELLED;
+    }
+  }
+  return QUOIN_OK;
+}
+
+/* A decimal end of the range. */
+static quoin_status place_text(quoin_work *work, const char *text, double none, qn_place *out, qn_num *value) {
+  *out = (qn_place){.t = none, .surface = QN_NO_SURFACE};
+  if (!text) {
+    return QUOIN_OK;
+  }
+  quoin_status status = qn_query_number(work, text, value);
+  if (status != QUOIN_OK) {
+    return status;
+  }
+  qn_ctx *ctx = qn_scratch_ctx(work->scratch);
+  double t = qn_num_to_double(*value);
+  out->t = t;
+  if (!isfinite(t) || !qn_num_equal(qn_num_from_double(ctx, t), *value)) {
+    /* Enclosed by its neighbours: half a spacing is enough, one is given. */
+    double far = fmin(fabs(t), 0x1.fffffffffffffp+1023);
+    out->t = copysign(far, t);
+    out->e = isfinite(t) ? nextafter(far, HUGE_VAL) - far : HUGE_VAL;
+    qn_rat r = qn_num_rat(ctx, *value);
+    out->num = r.num;
+    out->den = r.den;
+  }
+  return ctx->failed;
+}
+
+quoin_status quoin_ray_intervals_text(const quoin_scene *scene, quoin_work *work, const char *const ray[6], const char *from, const char *to,
+                                      unsigned want, quoin_intervals *out) {
+  if (!scene || !work || work->scene != scene || !ray || !out || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  qn_num v[6], from_value = QN_NUM_ZERO, to_value = QN_NUM_ZERO;
+  qn_line line;
+  qn_range range;
+  qn_query_begin(work);
+  qn_ctx *ctx = qn_scratch_ctx(work->scratch);
+  quoin_status status = QUOIN_OK;
+  for (int i = 0; i < 6 && status == QUOIN_OK; i++) {
+    status = qn_query_number(work, ray[i], &v[i]);
+  }
+  if (status == QUOIN_OK) {
+    status = place_text(work, from, -HUGE_VAL, &range.from, &from_value);
+  }
+  if (status == QUOIN_OK) {
+    status = place_text(work, to, HUGE_VAL, &range.to, &to_value);
+  }
+  if (status != QUOIN_OK) {
+    return status;
+  }
+  if ((qn_num_is_zero(v[3]) && qn_num_is_zero(v[4]) && qn_num_is_zero(v[5])) || (from && to && qn_num_cmp(ctx, from_value, to_value) > 0)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  qn_line_from_numbers(ctx, v, v + 3, &line);
+  return ctx->failed != QUOIN_OK ? ctx->failed : answer(work, &line, &range, want, out);
+}

@@ -1,0 +1,64 @@
+/* One thread's scratch for questions: what the files of this station share. */
+#ifndef QN_QUERY_WORK_H
+#define QN_QUERY_WORK_H
+
+#include "ray/around.h"
+
+enum { QN_LOCALS = 64 }; /* a power of two */
+
+/* A leaf's own coordinates, in doubles: local = inverse . (x, 1); its primitive's arguments. */
+typedef struct qn_local {
+  uint32_t leaf;
+  int singular;
+  double inverse[12];
+  double args[16], placement[6];
+  size_t arg_count;
+  int placed;
+} qn_local;
+#define QN_NO_LOCAL UINT32_MAX
+
+struct quoin_work {
+  const quoin_scene *scene;
+  qn_mem *mem;
+  qn_scratch *scratch;
+
+  /* A point's question (point.c). */
+  uint32_t *stamp, now;   /* by surface: sign[] was found in question `now` */
+  int8_t *sign;           /* by surface: of its exact form */
+  uint32_t *candidates;      size_t candidate_count, candidate_capacity;
+  qn_near_leaf *near;        size_t near_count, near_capacity;
+  uint32_t *near_halves;     size_t near_half_count, near_half_capacity;
+  quoin_status status;    /* QUOIN_E_MEMORY when an array could not grow */
+
+  /* A ray's answer. */
+  quoin_interval *inside;    size_t inside_capacity;
+  quoin_interval *boundary;  size_t boundary_capacity;
+  quoin_end *contacts;       size_t contact_capacity;
+
+  qn_local *locals; /* QN_LOCALS of them, by leaf modulo; made when first needed */
+};
+
+/* A point as a question takes it: doubles with weights, and the exact coordinates when needed.
+   |true x_i - x[i]| <= u weight[i]; weight 0: x[i] is exact. */
+typedef struct qn_query_point {
+  double x[3], weight[3];
+  qn_num exact[3];
+  qn_point point;
+  int made; /* point is there */
+} qn_query_point;
+
+/* Starts a question: the context is cleared, so it comes before the point is made. */
+void qn_query_begin(quoin_work *work);
+quoin_status qn_query_point_doubles(quoin_work *work, const double x[3], qn_query_point *out);
+quoin_status qn_query_point_text(quoin_work *work, const char *const text[3], qn_query_point *out);
+/* A whole text as a number. */
+quoin_status qn_query_number(quoin_work *work, const char *text, qn_num *out);
+
+/* Fills work->near and work->near_halves: the leaves whose closed solids hold the point. all: also those that have no part
+   in the scene's answer. */
+quoin_status qn_query_near(quoin_work *work, qn_query_point *point, int all);
+
+/* The leaf's coordinates; null when memory is refused. */
+const qn_local *qn_query_local(quoin_work *work, uint32_t leaf);
+
+#endif

@@ -1,0 +1,183 @@
+/* The side of a point that lies on surfaces: the program asked in every cell next to it (design S6). */
+#include "ray/around_cells.h"
+
+#include <string.h>
+
+static qn_xint coefficient(const qn_exact_surface *s, int i) {
+  return s->rounded && s->q[i].n != 0 ? qn_x_rounded(s->q[i]) : qn_x(s->q[i]);
+}
+
+/* sum of q[i] a b over the named coefficients: terms[k] = {coefficient, first, second} with the point's numbers x, y, z, w. */
+typedef struct term { int8_t coefficient, first, second, twice; } term;
+
+static qn_xint sum_of(qn_ctx *ctx, const qn_exact_surface *s, const qn_point *p, const term *terms, size_t n) {
+  const qn_int v[5] = {p->x[0], p->x[1], p->x[2], p->w, {0, NULL}};
+  qn_xint sum = qn_x((qn_int){0, NULL});
+  for (size_t i = 0; i < n; i++) {
+    const term *t = &terms[i];
+    if (s->q[t->coefficient].n == 0) {
+      continue;
+    }
+    qn_xint product = qn_x_mul(ctx, coefficient(s, t->coefficient), qn_x(v[t->first]));
+    if (t->second >= 0) {
+      product = qn_x_mul(ctx, product, qn_x(v[t->second]));
+    }
+    sum = qn_x_add(ctx, sum, t->twice ? qn_x_scale(ctx, product, 2) : product);
+  }
+  return sum;
+}
+
+int qn_surface_sign_at(qn_ctx *ctx, const qn_exact_surface *surface, const qn_point *point) {
+  static const term quadric[10] = {{0, 0, 0, 0}, {1, 1, 1, 0}, {2, 2, 2, 0}, {3, 0, 1, 0}, {4, 0, 2, 0},
+                                   {5, 1, 2, 0}, {6, 0, 3, 0}, {7, 1, 3, 0}, {8, 2, 3, 0}, {9, 3, 3, 0}};
+  static const term plane[4] = {{6, 0, -1, 0}, {7, 1, -1, 0}, {8, 2, -1, 0}, {9, 3, -1, 0}};
+  return qn_x_sign(surface->plane ? sum_of(ctx, surface, point, plane, 4) : sum_of(ctx, surface, point, quadric, 10));
+}
+
+void qn_surface_gradient_at(qn_ctx *ctx, const qn_exact_surface *surface, const qn_point *point, qn_xint g[3]) {
+  /* w times the gradient: 2 A x + D y + E z + G w, and so on. */
+  static const term rows[3][4] = {{{0, 0, -1, 1}, {3, 1, -1, 0}, {4, 2, -1, 0}, {6, 3, -1, 0}},
+                                  {{1, 1, -1, 1}, {3, 0, -1, 0}, {5, 2, -1, 0}, {7, 3, -1, 0}},
+                                  {{2, 2, -1, 1}, {4, 0, -1, 0}, {5, 1, -1, 0}, {8, 3, -1, 0}}};
+  for (int i = 0; i < 3; i++) {
+    g[i] = surface->plane ? coefficient(surface, 6 + i) : sum_of(ctx, surface, point, rows[i], 4);
+  }
+}
+
+void qn_surface_germ_at(qn_ctx *ctx, const qn_exact_surface *surface, const qn_point *point, qn_germ *germ) {
+  *germ = (qn_germ){0};
+  qn_surface_gradient_at(ctx, surface, point, germ->g);
+  germ->plane = surface->plane;
+  for (int k = 0; k < 6; k++) {
+    germ->h[k] = surface->plane ? qn_x((qn_int){0, NULL}) : coefficient(surface, k);
+    if (k < 3) {
+      germ->h[k] = qn_x_scale(ctx, germ->h[k], 2);
+    }
+  }
+}
+
+/* --- the program, in one cell after another ------------------------------------------------------------------------ */
+
+typedef struct asking {
+  const quoin_scene *scene;
+  qn_eval *eval;
+  const qn_near_leaf *leaves;
+  size_t leaf_count;
+  const uint32_t *near_halves;
+  uint32_t *index;  /* by near half: its surface's number here */
+  uint8_t *inside;  /* by near leaf: its state in the program now */
+  int value;        /* the program's now */
+  unsigned seen;    /* 1: outside was met, 2: inside was */
+} asking;
+
+static void set_leaf(asking *a, size_t i, int inside) {
+  const qn_leaf *leaf = &a->scene->leaves[a->leaves[i].leaf];
+  if (a->inside[i] != inside) {
+    a->inside[i] = (uint8_t)inside;
+    a->value = qn_eval_change(a->eval, leaf->gate, inside != leaf->negated);
+  }
+}
+
+static int ask(void *user, const int8_t *signs) {
+  asking *a = user;
+  for (size_t i = 0; i < a->leaf_count; i++) {
+    const qn_near_leaf *leaf = &a->leaves[i];
+    int inside = 1;
+    for (uint32_t k = leaf->first; k < leaf->first + leaf->count && inside; k++) {
+      inside = a->scene->halves[a->near_halves[k]].side * signs[a->index[k]] < 0;
+    }
+    if (leaf->count != 0) {
+      set_leaf(a, i, inside);
+    }
+  }
+  a->seen |= a->value ? 2u : 1u;
+  return a->seen == 3;
+}
+
+/* Numbers the distinct surfaces of the near halves; their count. */
+static size_t number_surfaces(asking *a, size_t near_count, uint32_t *surfaces) {
+  size_t n = 0;
+  for (size_t k = 0; k < near_count; k++) {
+    uint32_t surface = a->scene->halves[a->near_halves[k]].surface;
+    size_t i = 0;
+    while (i < n && surfaces[i] != surface) {
+      i++;
+    }
+    if (i == n) {
+      surfaces[n++] = surface;
+    }
+    a->index[k] = (uint32_t)i;
+  }
+  return n;
+}
+
+static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point, size_t n, const uint32_t *surfaces) {
+  const quoin_scene *scene = a->scene;
+  qn_germ *germs = qn_arena_take(&ctx->arena, n * sizeof *germs);
+  if (!germs) {
+    return QUOIN_E_MEMORY;
+  }
+  memset(germs, 0, n * sizeof *germs);
+  int planes = 1;
+  for (size_t i = 0; i < n; i++) {
+    uint8_t kind = scene->surfaces[surfaces[i]].kind;
+    germs[i].opaque = kind == QN_SUPER_BODY;
+    planes &= kind == QN_PLANE;
+  }
+  if (planes && n <= 2) { /* distinct planes through one point cross: no need of their forms */
+    for (int k = 0; k < 1 << n; k++) {
+      const int8_t signs[2] = {(int8_t)(k & 1 ? 1 : -1), (int8_t)(k & 2 ? 1 : -1)};
+      if (ask(a, signs)) {
+        break;
+      }
+    }
+    return QUOIN_OK;
+  }
+  for (size_t i = 0; i < n; i++) {
+    if (!germs[i].opaque) {
+      int made = 0;
+      const qn_exact_surface *surface = qn_scene_exact(scene, surfaces[i], &made);
+      counts->exact_forms += (uint64_t)(made != 0);
+      if (!surface) {
+        return QUOIN_E_MEMORY;
+      }
+      qn_surface_germ_at(ctx, surface, point, &germs[i]);
+    }
+  }
+  if (!qn_cells_list(ctx, n, germs, ask, a)) {
+    a->seen = 3;
+  }
+  return ctx->failed;
+}
+
+quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
+                       const uint32_t *near_halves, size_t near_count, quoin_side *out) {
+  qn_ctx *ctx = qn_scratch_ctx(scratch);
+  qn_eval *eval = qn_scratch_eval(scratch);
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  asking a = {.scene = scene, .eval = eval, .leaves = leaves, .leaf_count = leaf_count, .near_halves = near_halves, .value = eval->value};
+  uint32_t *surfaces = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *surfaces);
+  a.index = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.index);
+  a.inside = qn_arena_take(&ctx->arena, leaf_count + 1);
+  if (!surfaces || !a.index || !a.inside) {
+    qn_arena_release(&ctx->arena, mark);
+    return QUOIN_E_MEMORY;
+  }
+  memset(a.inside, 0, leaf_count + 1);
+  for (size_t i = 0; i < leaf_count; i++) {
+    if (leaves[i].count == 0) {
+      set_leaf(&a, i, 1);
+    }
+  }
+  quoin_status status = QUOIN_OK;
+  size_t n = number_surfaces(&a, near_count, surfaces);
+  if (n == 0) {
+    a.seen = a.value ? 2u : 1u;
+  } else {
+    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point, n, surfaces);
+  }
+  qn_eval_reset(eval);
+  qn_arena_release(&ctx->arena, mark);
+  *out = a.seen == 3 ? QUOIN_BOUNDARY : a.seen == 2 ? QUOIN_INSIDE : QUOIN_OUTSIDE;
+  return status;
+}

@@ -1,0 +1,293 @@
+/* The cells next to a point: the surfaces sorted into classes, the cells of their leading forms, the record of signs.
+
+   Derivation. Seen from P, a direction v in which no leading form vanishes lies in one cell, and its signs are those of
+   the leading forms. Every other cell hugs a direction in which some leading form vanishes:
+   - the plane T of a class (around_tangent.c). Every first-order cell that has a part of T in its closure is met there too:
+     walking the circle of T's directions, between the places where other leading forms vanish, and stepping off to either side
+     lists all cells of an arrangement of planes, for each of them has such a side;
+   - a cone of a singular surface. A part of a cone that no T crosses is one side of it whole, in one of the two opposite
+     directions, so that plus and minus a vector inside it and one outside it name its cells (the axes of H are such);
+   - a direction in which several leading forms vanish (tangent.c).
+   With two cones or more through P their signs against one another are left open, but for what forms prove (forbid). */
+#include "ray/around_cells.h"
+
+#include <string.h>
+
+int qn_cells_done(const qn_cells *cells) {
+  return cells->stop || cells->ctx->failed != QUOIN_OK;
+}
+
+static int forbidden(const qn_cells *cells, const int8_t *signs) {
+  for (size_t i = 0; i < cells->forbid_count; i++) {
+    const qn_forbid *f = &cells->forbids[i];
+    if (signs[f->a] == f->sign_a && signs[f->b] == f->sign_b) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+void qn_cells_give(qn_cells *cells) {
+  size_t open = 0;
+  for (size_t i = 0; i < cells->n; i++) {
+    cells->full[i] = cells->signs[i];
+    if (cells->signs[i] == 0) {
+      cells->free[open++] = (uint32_t)i;
+      cells->full[i] = -1;
+    }
+  }
+  if (open > QN_CELLS_OPEN) {
+    cells->stop = cells->gave_up = 1;
+  }
+  while (!qn_cells_done(cells)) {
+    if (open == 0 || !forbidden(cells, cells->full)) {
+      cells->stop = cells->emit(cells->user, cells->full) != 0;
+    }
+    size_t k = 0; /* the next filling: a binary count, -1 for 0 */
+    while (k < open && cells->full[cells->free[k]] > 0) {
+      cells->full[cells->free[k++]] = -1;
+    }
+    if (k == open) {
+      return;
+    }
+    cells->full[cells->free[k]] = 1;
+  }
+}
+
+void qn_class_difference(qn_ctx *ctx, const qn_germ *a, const qn_germ *b, qn_xint d[6]) {
+  for (int k = 0; k < 6; k++) {
+    qn_xint x = qn_x_mul(ctx, b->size, a->h[k]), y = qn_x_mul(ctx, a->size, b->h[k]);
+    x = a->orient < 0 ? qn_x_neg(x) : x;
+    d[k] = b->orient < 0 ? qn_x_add(ctx, x, y) : qn_x_sub(ctx, x, y);
+  }
+}
+
+/* --- sorting into classes ------------------------------------------------------------------------------------------ */
+
+static void classify(qn_cells *cells) {
+  for (size_t i = 0; i < cells->n; i++) {
+    qn_germ *germ = &cells->germs[i];
+    germ->class = UINT32_MAX;
+    germ->orient = 1;
+    germ->singular = 0;
+    if (germ->opaque) {
+      continue;
+    }
+    if (qn_x_sign(germ->g[0]) == 0 && qn_x_sign(germ->g[1]) == 0 && qn_x_sign(germ->g[2]) == 0) {
+      germ->singular = 1;
+      cells->singular_count++;
+      continue;
+    }
+    size_t c = 0;
+    while (c < cells->class_count && !qn_parallel_x(cells->ctx, cells->germs[cells->classes[c].first].g, germ->g)) {
+      c++;
+    }
+    qn_class *class = &cells->classes[c];
+    if (c == cells->class_count) {
+      cells->class_count++;
+      *class = (qn_class){.first = (uint32_t)i};
+      size_t most = 0;
+      for (uint32_t k = 0; k < 3; k++) {
+        int sign = qn_x_sign(germ->g[k]);
+        class->normal[k] = sign == 0 ? (qn_int){0, NULL} : germ->g[k].v;
+        if (qn_int_bits(class->normal[k]) > most) {
+          most = qn_int_bits(class->normal[k]);
+          class->axis = k;
+        }
+      }
+    }
+    class->members++;
+    int mine = qn_x_sign(germ->g[class->axis]), first = qn_x_sign(cells->germs[class->first].g[class->axis]);
+    germ->class = (uint32_t)c;
+    germ->orient = (int8_t)(mine == first ? 1 : -1);
+    germ->size = mine < 0 ? qn_x_neg(germ->g[class->axis]) : germ->g[class->axis];
+  }
+}
+
+static void forbid(qn_cells *cells, size_t a, int sign_a, size_t b, int sign_b) {
+  cells->forbids[cells->forbid_count++] = (qn_forbid){(uint32_t)a, (uint32_t)b, (int8_t)sign_a, (int8_t)sign_b};
+}
+
+/* Two surfaces of one class: with qa, qb oriented alike and scaled to one gradient, qa - qb = uᵗDu exactly. D >= 0 means
+   qa >= qb, so qa < 0 < qb is nowhere; D <= 0 the reverse. */
+static void forbid_in_class(qn_cells *cells, size_t a, size_t b) {
+  const qn_germ *x = &cells->germs[a], *y = &cells->germs[b];
+  qn_xint d[6];
+  qn_class_difference(cells->ctx, x, y, d);
+  int definite = qn_form_definite(cells->ctx, d);
+  if (definite == 1 || definite == 2) {
+    forbid(cells, a, -x->orient, b, y->orient);
+  }
+  if (definite == -1 || definite == 2) {
+    forbid(cells, a, x->orient, b, -y->orient);
+  }
+}
+
+/* Two cones: if s A - t B >= 0 for some s, t > 0, then A < 0 < B is nowhere (the easy half of the S-lemma); and so
+   with the signs of A and B turned. s and t are tried from pairs of entries, which finds cones about one axis. */
+static void forbid_cones(qn_cells *cells, size_t a, size_t b) {
+  qn_ctx *ctx = cells->ctx;
+  const qn_germ *x = &cells->germs[a], *y = &cells->germs[b];
+  int found[2][2] = {{0, 0}, {0, 0}};
+  for (int k = 0; k < 6; k++) {
+    int sx = qn_x_sign(x->h[k]), sy = qn_x_sign(y->h[k]);
+    if (sx == 0 || sy == 0) {
+      continue;
+    }
+    /* |y_k| A -+ |x_k| B, and its signs: e A - f B >= 0 for e, f = +-1. */
+    qn_xint s = sy < 0 ? qn_x_neg(y->h[k]) : y->h[k], t = sx < 0 ? qn_x_neg(x->h[k]) : x->h[k], d[6];
+    for (int minus = 0; minus < 2; minus++) {
+      for (int i = 0; i < 6; i++) {
+        qn_xint p = qn_x_mul(ctx, s, x->h[i]), q = qn_x_mul(ctx, t, y->h[i]);
+        d[i] = minus ? qn_x_sub(ctx, p, q) : qn_x_add(ctx, p, q);
+      }
+      int definite = qn_form_definite(ctx, d);
+      for (int e = -1; e <= 1; e += 2) {
+        int f = minus ? e : -e; /* e (sA -+ tB) = e s A - f t B */
+        if ((definite == e || definite == 2) && !found[e > 0][f > 0]) {
+          found[e > 0][f > 0] = 1;
+          forbid(cells, a, -e, b, f); /* e A < 0 < f B */
+        }
+      }
+    }
+  }
+}
+
+static void find_forbids(qn_cells *cells) {
+  for (size_t a = 0; a < cells->n; a++) {
+    for (size_t b = a + 1; b < cells->n; b++) {
+      const qn_germ *x = &cells->germs[a], *y = &cells->germs[b];
+      if (x->singular && y->singular) {
+        forbid_cones(cells, a, b);
+      } else if (x->class == y->class && x->class != UINT32_MAX) {
+        forbid_in_class(cells, a, b);
+      }
+    }
+  }
+}
+
+static size_t count_pairs(const qn_cells *cells) {
+  size_t pairs = cells->singular_count * (cells->singular_count + 1) / 2;
+  for (size_t c = 0; c < cells->class_count; c++) {
+    pairs += (size_t)cells->classes[c].members * (cells->classes[c].members - 1) / 2;
+  }
+  return pairs;
+}
+
+/* --- a direction, and two more against ties ------------------------------------------------------------------------ */
+
+/* The sign of the leading form on v0 + e v1 + e^2 v2, e small: its first coefficient that is not zero. */
+static int flag_sign(qn_ctx *ctx, const qn_germ *germ, const qn_int (*v)[3]) {
+  if (!germ->singular) {
+    for (int k = 0; k < 3; k++) {
+      int sign = qn_x_sign(qn_dot_x(ctx, germ->g, v[k]));
+      if (sign != 0) {
+        return sign;
+      }
+    }
+    return 0;
+  }
+  const qn_xint *h = germ->h;
+  for (int power = 0; power <= 4; power++) {
+    qn_xint sum = qn_x((qn_int){0, NULL});
+    for (int i = 0; i < 3; i++) {
+      int j = power - i;
+      if (j >= i && j < 3) {
+        qn_xint term = qn_form_x(ctx, h, v[i], v[j]);
+        sum = qn_x_add(ctx, sum, i == j ? term : qn_x_scale(ctx, term, 2));
+      }
+    }
+    int sign = qn_x_sign(sum);
+    if (sign != 0) {
+      return sign;
+    }
+  }
+  return 0;
+}
+
+/* The cell of the flag (axes[k], the two others), in the direction `way` (1 or -1) of the first. */
+static void give_flag(qn_cells *cells, qn_int axes[3][3], int k, int way) {
+  qn_int flag[3][3];
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      qn_int x = axes[(k + i) % 3][j];
+      flag[i][j] = i == 0 && way < 0 ? qn_int_neg(x) : x;
+    }
+  }
+  for (size_t i = 0; i < cells->n; i++) {
+    cells->signs[i] = 0;
+    if (!cells->germs[i].opaque && !(cells->germs[i].singular && cells->singular_count > 1)) {
+      cells->signs[i] = (int8_t)flag_sign(cells->ctx, &cells->germs[i], (const qn_int(*)[3])flag);
+    }
+  }
+  qn_cells_give(cells);
+}
+
+/* The cells that a cone has away from all planes of classes. */
+static void give_cone(qn_cells *cells, size_t cone) {
+  qn_int axes[3][3];
+  int signs[3];
+  qn_form_axes(cells->ctx, cells->germs[cone].h, axes, signs);
+  for (int k = 0; k < 3; k++) {
+    for (int way = -1; way <= 1; way += 2) {
+      give_flag(cells, axes, k, way);
+    }
+  }
+}
+
+/* All leading forms are independent linear ones, so every combination is a cell. */
+static int independent(qn_cells *cells) {
+  if (cells->singular_count != 0) {
+    return 0;
+  }
+  for (size_t c = 0; c < cells->class_count; c++) {
+    if (cells->classes[c].members != 1) {
+      return 0;
+    }
+  }
+  if (cells->class_count < 3) {
+    return 1;
+  }
+  if (cells->class_count > 3) {
+    return 0;
+  }
+  qn_int across[3];
+  qn_cross_int(cells->ctx, cells->classes[1].normal, cells->classes[2].normal, across);
+  return qn_x_sign(qn_dot_x(cells->ctx, cells->germs[cells->classes[0].first].g, across)) != 0;
+}
+
+int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user) {
+  qn_cells cells = {.ctx = ctx, .n = n, .germs = germs, .emit = emit, .user = user};
+  cells.signs = qn_arena_take(&ctx->arena, 2 * n + 1);
+  cells.order = qn_arena_take(&ctx->arena, (2 * n + 1) * sizeof *cells.order);
+  cells.classes = qn_arena_take(&ctx->arena, (n + 1) * sizeof *cells.classes);
+  if (!cells.signs || !cells.order || !cells.classes) {
+    ctx->failed = QUOIN_E_MEMORY;
+    return 0;
+  }
+  cells.full = cells.signs + n;
+  cells.free = cells.order + n;
+  memset(cells.signs, 0, 2 * n + 1);
+  classify(&cells);
+  if (independent(&cells)) {
+    qn_cells_give(&cells);
+    return !cells.gave_up;
+  }
+  cells.forbids = qn_arena_take(&ctx->arena, (4 * count_pairs(&cells) + 1) * sizeof *cells.forbids);
+  if (!cells.forbids) {
+    ctx->failed = QUOIN_E_MEMORY;
+    return 0;
+  }
+  find_forbids(&cells);
+  for (size_t i = 0; i < n && !qn_cells_done(&cells); i++) {
+    if (germs[i].singular) {
+      give_cone(&cells, i);
+    }
+  }
+  for (uint32_t c = 0; c < cells.class_count && !qn_cells_done(&cells); c++) {
+    qn_mark mark = qn_arena_mark(&ctx->arena);
+    qn_cells_circle(&cells, c);
+    qn_arena_release(&ctx->arena, mark);
+  }
+  return !cells.gave_up;
+}

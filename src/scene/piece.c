@@ -1,0 +1,187 @@
+#include "scene/piece.h"
+
+#include "base/bounds.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The largest |row . (x - pivot, 1)| over the leaf's box. */
+static double row_reach(const qn_leaf *l, const double row[4]) {
+  double most = fabs(row[3]);
+  for (int j = 0; j < 3; j++) {
+    most += fabs(row[j]) * fmax(fabs(l->min[j] - l->pivot[j]), fabs(l->max[j] - l->pivot[j]));
+  }
+  return most * (1 + 0x1p-40);
+}
+
+static int is_sphere(const quoin_scene *scene, const qn_leaf *l) {
+  const qn_half *h = &scene->halves[l->half0];
+  if (l->halves != 1 || h->kind != QN_QUADRIC_BODY) {
+    return 0;
+  }
+  const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
+  int same = q->l == 0 && q->s[0] > 0 && q->s[0] == q->s[1] && q->s[1] == q->s[2] && q->k < 0;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      same = same && (i == j ? q->row[i][j] == q->row[0][0] && q->row[0][0] != 0 : q->row[i][j] == 0);
+    }
+  }
+  return same;
+}
+
+/* The axis of a plane shadow that is perpendicular to one, else -1. */
+static int axis_of(const qn_plane_shadow *p) {
+  int axis = -1;
+  for (int i = 0; i < 3; i++) {
+    if (p->n[i] != 0) {
+      if (axis >= 0) {
+        return -1;
+      }
+      axis = i;
+    }
+  }
+  return axis;
+}
+
+/* Fills `box` and returns 1 when the leaf is six planes, two across each axis. */
+static int is_box(const quoin_scene *scene, uint32_t leaf, qn_piece_box *box) {
+  const qn_leaf *l = &scene->leaves[leaf];
+  unsigned seen = 0;
+  *box = (qn_piece_box){.head = {QN_PIECE_BOX, leaf}};
+  for (uint32_t i = l->half0; l->halves == 6 && i < l->half0 + 6; i++) {
+    const qn_half *h = &scene->halves[i];
+    const qn_plane_shadow *p = &scene->planes[h->shadow];
+    int axis = h->kind == QN_PLANE ? axis_of(p) : -1;
+    if (axis < 0) {
+      return 0;
+    }
+    int high = p->n[axis] > 0;
+    double from_pivot = -p->d / p->n[axis], place = l->pivot[axis] + from_pivot;
+    box->off = fmax(box->off, 8 * QN_U * (fabs(l->pivot[axis]) + fabs(from_pivot)));
+    (high ? box->hi : box->lo)[axis] = place;
+    box->surface[2 * axis + high] = h->surface;
+    seen |= 1u << (2 * axis + high);
+  }
+  return seen == 63;
+}
+
+/* A quadric body and at most two caps that face apart. */
+static int is_round(const quoin_scene *scene, uint32_t leaf, qn_piece_round *round) {
+  const qn_leaf *l = &scene->leaves[leaf];
+  if (l->halves < 1 || l->halves > 3) {
+    return 0;
+  }
+  *round = (qn_piece_round){.head = {QN_PIECE_ROUND, leaf}, .surface = {UINT32_MAX, UINT32_MAX, UINT32_MAX}};
+  memcpy(round->pivot, l->pivot, sizeof round->pivot);
+  double reach = 0;
+  int caps = 0;
+  for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
+    const qn_half *h = &scene->halves[i];
+    if (h->kind == QN_QUADRIC_BODY && round->surface[0] == UINT32_MAX) {
+      const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
+      memcpy(round->row, q->row, sizeof round->row);
+      memcpy(round->s, q->s, sizeof round->s);
+      round->l = q->l, round->k = q->k;
+      round->surface[0] = h->surface;
+      for (int r = 0; r < 3; r++) {
+        double most = row_reach(l, q->row[r]);
+        reach += most * most;
+      }
+    } else if (h->kind == QN_PLANE && caps < 2) {
+      const qn_plane_shadow *p = &scene->planes[h->shadow];
+      memcpy(round->cap[caps], p->n, sizeof p->n);
+      round->cap[caps][3] = p->d;
+      round->surface[1 + caps++] = h->surface;
+    } else {
+      return 0;
+    }
+  }
+  round->reach = sqrt(reach) * (1 + 0x1p-40);
+  return round->surface[0] != UINT32_MAX && isfinite(round->reach);
+}
+
+/* Every number of the leaf well within the range of doubles, and nothing that wide code does not know. */
+static int is_plain(const quoin_scene *scene, const qn_leaf *l) {
+  double small = INFINITY, large = 0;
+  const double *numbers;
+  for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
+    const qn_half *h = &scene->halves[i];
+    size_t count;
+    if (h->kind == QN_SUPER_BODY) {
+      return 0;
+    }
+    if (h->kind == QN_PLANE) {
+      numbers = scene->planes[h->shadow].n, count = 4;
+    } else {
+      numbers = scene->quadrics[h->shadow].row[0], count = sizeof(qn_quadric_shadow) / sizeof(double);
+    }
+    for (size_t k = 0; k < count; k++) {
+      double v = fabs(numbers[k]);
+      large = fmax(large, v);
+      small = v > 0 ? fmin(small, v) : small;
+    }
+  }
+  return large < 0x1p+100 && small > 0x1p-100;
+}
+
+static size_t piece_of(const quoin_scene *scene, uint32_t leaf, void *line) {
+  const qn_leaf *l = &scene->leaves[leaf];
+  if (is_plain(scene, l)) {
+    if (is_sphere(scene, l)) {
+      const qn_half *h = &scene->halves[l->half0];
+      const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
+      double scale = q->row[0][0];
+      qn_piece_sphere s = {.head = {QN_PIECE_SPHERE, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .surface = h->surface};
+      memcpy(s.centre, l->pivot, sizeof s.centre);
+      for (int i = 0; i < 3; i++) {
+        s.off = fmax(s.off, fabs(q->row[i][3] / scale) * (1 + 0x1p-40));
+      }
+      memcpy(line, &s, sizeof s);
+      return 1;
+    }
+    qn_piece_box box;
+    if (is_box(scene, leaf, &box)) {
+      memcpy(line, &box, sizeof box);
+      return 2;
+    }
+    qn_piece_round round;
+    if (is_round(scene, leaf, &round)) {
+      memcpy(line, &round, sizeof round);
+      return 4;
+    }
+  }
+  qn_piece_meet meet = {.head = {is_plain(scene, l) ? QN_PIECE_MEET : QN_PIECE_HARD, leaf}};
+  memcpy(line, &meet, sizeof meet);
+  return 1;
+}
+
+quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem) {
+  const qn_normal *n = &scene->normal;
+  scene->line_of = qn_alloc(mem, scene->leaf_count * sizeof *scene->line_of);
+  if (!scene->line_of) {
+    return QUOIN_E_MEMORY;
+  }
+  memset(scene->line_of, 0xff, scene->leaf_count * sizeof *scene->line_of);
+  size_t lines = 0;
+  for (int fill = 0; fill < 2; fill++) { /* count, then fill */
+    lines = 0;
+    for (size_t i = 0; i < n->leaf_count; i++) {
+      uint32_t leaf = n->leaves[i];
+      _Alignas(64) char line[256];
+      if (fill ? scene->line_of[leaf] == UINT32_MAX - 1 : scene->line_of[leaf] == UINT32_MAX) {
+        size_t size = piece_of(scene, leaf, fill ? (void *)((char *)scene->lines + lines * 64) : (void *)line);
+        scene->line_of[leaf] = fill ? (uint32_t)lines : UINT32_MAX - 1;
+        lines += size;
+      }
+    }
+    if (!fill) {
+      scene->line_count = lines;
+      scene->lines = qn_alloc_line(mem, lines * 64);
+      if (!scene->lines || lines >= UINT32_MAX - 1) {
+        return QUOIN_E_MEMORY;
+      }
+    }
+  }
+  return QUOIN_OK;
+}

@@ -1,0 +1,62 @@
+/* Pieces: what wide code needs of each leaf of the normal form, in the order in which it is walked, in units of a cache
+   line so that a plain leaf is one line. Made once, from the shadows; every value a copy of them, so no new rounding. */
+#ifndef QN_SCENE_PIECE_H
+#define QN_SCENE_PIECE_H
+
+#include "base/mem.h"
+
+typedef enum qn_piece_kind {
+  QN_PIECE_SPHERE, /* one line: |x - centre|^2 <= r2 */
+  QN_PIECE_BOX,    /* two lines: lo <= x <= hi, in world coordinates */
+  QN_PIECE_ROUND,  /* four lines: a quadric body and a pair of parallel caps on its third row (either may be missing) */
+  QN_PIECE_MEET,   /* one line: any convex meet of planes and quadrics, read from the scene's halves */
+  QN_PIECE_HARD    /* one line: not for wide code (superquadrics): every ray that meets its box is answered by the woven path */
+} qn_piece_kind;
+
+typedef struct qn_piece_head {
+  uint32_t kind;
+  uint32_t leaf;
+} qn_piece_head;
+
+typedef struct qn_piece_sphere {
+  qn_piece_head head;
+  double centre[3]; /* the pivot: the true centre is within `off` of it, axis by axis */
+  double r2;        /* relative error 4u at most */
+  double off;
+  uint32_t surface;
+  uint32_t unused[3];
+} qn_piece_sphere;
+
+typedef struct qn_piece_box {
+  qn_piece_head head;
+  uint32_t surface[6]; /* -x, +x, -y, +y, -z, +z */
+  uint32_t unused[2];
+  double lo[3], hi[3];  /* within `off` of the true planes */
+  double off;
+  double unused2[4];
+} qn_piece_box;
+
+typedef struct qn_piece_round {
+  qn_piece_head head;
+  uint32_t surface[3]; /* body, low cap, high cap; UINT32_MAX: no such cap */
+  uint32_t unused;
+  double pivot[3];
+  double row[3][4];    /* as in qn_quadric_shadow */
+  double s[3], l, k;
+  double cap[2][4];    /* low and high cap as in qn_plane_shadow: n . (x - pivot) + d <= 0 */
+  double reach;        /* at least sqrt(X0^2 + X1^2 + X2^2) anywhere in the leaf; infinite when it is unbounded */
+} qn_piece_round;
+
+typedef struct qn_piece_meet {
+  qn_piece_head head;
+  uint32_t unused[14];
+} qn_piece_meet;
+
+_Static_assert(sizeof(qn_piece_sphere) == 64 && sizeof(qn_piece_box) == 128 && sizeof(qn_piece_meet) == 64, "whole cache lines");
+_Static_assert(sizeof(qn_piece_round) == 256, "whole cache lines");
+
+struct quoin_scene;
+/* Fills scene->lines and scene->line_of (by leaf), in the order of the normal form's leaves. */
+QN_NODISCARD quoin_status qn_pieces_build(struct quoin_scene *scene, qn_mem *mem);
+
+#endif

@@ -1,0 +1,38 @@
+#include "wide/packet.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void qn_first_sse2(const struct quoin_scene *, const qn_packet *, qn_packet_hits *, qn_wide_counts *);
+#if defined(__x86_64__)
+void qn_first_avx2(const struct quoin_scene *, const qn_packet *, qn_packet_hits *, qn_wide_counts *);
+void qn_first_avx512(const struct quoin_scene *, const qn_packet *, qn_packet_hits *, qn_wide_counts *);
+#endif
+
+/* From the widest to the one that always runs. */
+static const qn_wide bodies[] = {
+  {"avx512", qn_first_avx512},
+  {"avx2", qn_first_avx2},
+  {"sse2", qn_first_sse2},
+};
+
+static int runs(size_t i) {
+  if (i == 0) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
+  }
+  return i != 1 || (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+}
+
+const qn_wide *qn_wide_pick(void) {
+  const char *forced = getenv("QUOIN_ISA");
+  const qn_wide *best = NULL;
+  for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
+    if (runs(i)) {
+      if (forced && !strcmp(forced, bodies[i].name)) {
+        return &bodies[i];
+      }
+      best = best ? best : &bodies[i];
+    }
+  }
+  return best;
+}

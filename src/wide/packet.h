@@ -1,0 +1,39 @@
+/* Packets: up to 64 rays that go the same way, solved together. A packet answers what doubles can certify; a ray with a
+   comparison that they cannot is marked `unsure` and answered whole by the woven path (src/ray/weave.h). Nothing that a
+   packet answers depends on the instruction set: only which rays it marks does.
+
+   Order of the lanes: lane i is column x, row y of an 8 by 8 tile with x = bits 0, 2, 4 of i and y = bits 1, 3, 5, so that each
+   QN_W neighbours in memory are neighbours in the tile. */
+#ifndef QN_WIDE_PACKET_H
+#define QN_WIDE_PACKET_H
+
+#include "scene/normal.h"
+#include "scene/scene.h"
+
+enum { QN_LANES = 64 };
+
+typedef struct qn_packet {
+  _Alignas(64) double o[3][QN_LANES], d[3][QN_LANES]; /* d finite, not the zero vector */
+  _Alignas(64) double from[QN_LANES], to[QN_LANES];
+  uint64_t live; /* lanes in use; the others' numbers are finite all the same */
+} qn_packet;
+
+/* What became of each lane. A lane is in at most one of `found` and `unsure`. */
+typedef struct qn_packet_hits {
+  uint64_t found, leaving, unsure;
+  _Alignas(64) double t[QN_LANES];      /* approximate: within `error` of the true parameter */
+  _Alignas(64) double error[QN_LANES];
+  uint32_t surface[QN_LANES], leaf[QN_LANES]; /* leaf: one with that surface at the hit */
+  uint64_t far_end; /* lanes whose surface is where the ray leaves that leaf (the larger root) */
+} qn_packet_hits;
+
+typedef struct qn_wide_counts { uint64_t nodes, leaves, packets; } qn_wide_counts;
+
+/* The first boundary at or after `from` and not after `to`. */
+typedef void (*qn_first_fn)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
+
+typedef struct qn_wide { const char *name; qn_first_fn first; } qn_wide;
+/* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
+const qn_wide *qn_wide_pick(void);
+
+#endif

@@ -1,0 +1,683 @@
+/* The packet body, compiled once for each instruction set (see CMakeLists.txt): the first boundary of up to 64 rays.
+
+   Two questions that call each other walk the normal form (scene/normal.h). enter: the first place in a union at or after a
+   lane's place. leave: the place after which no term of a union holds the lane. A term [a, b) minus S is entered at leave(S, max(a, t))
+   when that is before b, and is left, when it holds t, at the sooner of b and enter(S, t). Ends compare as reals: apart by more than
+   the errors' sum, sure; else equal when they are the same root of the same surface; else the lane is given up (unsure).
+   A place stands for the stretch just after it, so ends are half-open and coincident faces come out regularised (S5). */
+#include "wide/solve.h"
+
+typedef struct lanes { _Alignas(64) double t[QN_LANES], p[QN_LANES]; } lanes; /* places and payloads */
+
+enum { SUBS = 8, SUB_LANES = QN_LANES / SUBS, STACK = 256 };
+
+/* How a packet's directions lie on an axis. */
+enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
+
+typedef struct walk {
+  packet_facts f;
+  const struct quoin_scene *scene;
+  const qn_normal *normal;
+  uint64_t unsure;
+  qn_wide_counts counts;
+  int axis[3];
+  _Alignas(32) float omin[3][SUBS], omax[3][SUBS], imin[3][SUBS], imax[3][SUBS]; /* of each sub-packet, rounded outward */
+  float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
+  _Alignas(64) double tolerance[QN_LANES]; /* the sum of any two errors of this lane so far */
+} walk;
+
+static float down(double v) {
+  float f = (float)v;
+  return (double)f > v ? nextafterf(f, -INFINITY) : f;
+}
+static float up(double v) {
+  float f = (float)v;
+  return (double)f < v ? nextafterf(f, INFINITY) : f;
+}
+
+/* --- order --------------------------------------------------------------------------------------------------------- */
+
+static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd px, vd py, unsigned *equal) {
+  _Alignas(64) double x[QN_W], y[QN_W];
+  vstore(x, px), vstore(y, py);
+  const uint64_t who = QN_LARGER_ROOT | 0xffffffffu;
+  for (int i = 0; i < QN_W; i++) {
+    if (near >> i & 1) {
+      uint64_t a, b;
+      memcpy(&a, &x[i], 8), memcpy(&b, &y[i], 8);
+      if ((a & who) == (b & who)) {
+        *equal |= 1u << i;
+      } else {
+        w->unsure |= (uint64_t)1 << (g * QN_W + i);
+      }
+    }
+  }
+}
+
+/* x before y, and x equal to y, for the lanes of `mask`; lanes in neither are after, or were given up: these leave `mask`. */
+QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *before, vm *equal) {
+  vd tolerance = vload(w->tolerance + g * QN_W), gap = vsub(y, x);
+  vm sure = vlt(tolerance, gap), near = vle(vabs(gap), tolerance);
+  *before = vand(sure, *mask);
+  unsigned close = vbits(vand(near, *mask));
+  if (QN_LIKELY(close == 0)) {
+    *equal = vmask(0);
+    return;
+  }
+  unsigned same = 0;
+  settle_ties(w, g, close, px, py, &same);
+  *equal = vmask(same);
+  *mask = vandnot(*mask, vmask(close & ~same));
+}
+
+/* --- boxes --------------------------------------------------------------------------------------------------------- */
+
+/* Which of eight boxes the packet, or of eight sub-packets the box, may meet between two parameters. The products bound the
+   parameters at which a box's planes are met; imin and imax are widened so that their rounding does not matter. */
+QN_INLINE unsigned slabs(const int axis[3], vf8 bmin[3], vf8 bmax[3], vf8 omin[3], vf8 omax[3], vf8 imin[3], vf8 imax[3], vf8 start, vf8 end, vf8 *near_out) {
+  vf8 near = start, far = end;
+  unsigned meets = 0xff;
+  for (int i = 0; i < 3; i++) {
+    if (axis[i] == AXIS_UP || axis[i] == AXIS_DOWN) {
+      vf8 n = axis[i] == AXIS_UP ? fsub(bmin[i], omax[i]) : fsub(bmax[i], omin[i]);
+      vf8 x = axis[i] == AXIS_UP ? fsub(bmax[i], omin[i]) : fsub(bmin[i], omax[i]);
+      near = fmax8(near, fmin8(fmul(n, imin[i]), fmul(n, imax[i])));
+      far = fmin8(far, fmax8(fmul(x, imin[i]), fmul(x, imax[i])));
+    } else if (axis[i] == AXIS_FLAT) {
+      meets &= fle(bmin[i], omax[i]) & fle(omin[i], bmax[i]);
+    }
+  }
+  *near_out = near;
+  return meets & fle(near, far);
+}
+
+QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, float end, float near[8]) {
+  vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
+  for (int i = 0; i < 3; i++) {
+    bmin[i] = fload(n->min[i]), bmax[i] = fload(n->max[i]);
+    omin[i] = fset(w->all_omin[i]), omax[i] = fset(w->all_omax[i]), imin[i] = fset(w->all_imin[i]), imax[i] = fset(w->all_imax[i]);
+  }
+  unsigned meets = slabs(w->axis, bmin, bmax, omin, omax, imin, imax, fset(start), fset(end), &when);
+  fstore(near, when);
+  return meets;
+}
+
+/* The sub-packets that may meet a term's box, as lanes. */
+QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
+  vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
+  for (int i = 0; i < 3; i++) {
+    bmin[i] = fset(t->min[i]), bmax[i] = fset(t->max[i]);
+    omin[i] = fload(w->omin[i]), omax[i] = fload(w->omax[i]), imin[i] = fload(w->imin[i]), imax[i] = fload(w->imax[i]);
+  }
+  unsigned meets = slabs(w->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when);
+  uint64_t mask = 0;
+  for (int s = 0; s < SUBS; s++) {
+    mask |= (uint64_t)(meets >> s & 1 ? 0xff : 0) << (8 * s);
+  }
+  return mask;
+}
+
+/* --- one term ------------------------------------------------------------------------------------------------------ */
+
+typedef union piece_constants {
+  sphere_constants sphere;
+  box_constants box;
+  struct { plane_constants cap[2]; body_constants body; } round;
+} piece_constants;
+
+static const qn_piece_head *piece_at(const walk *w, uint32_t leaf) {
+  return (const qn_piece_head *)(const void *)((const char *)w->scene->lines + (size_t)w->scene->line_of[leaf] * 64);
+}
+
+static void piece_prepare(const walk *w, const qn_piece_head *head, piece_constants *k) {
+  switch ((qn_piece_kind)head->kind) {
+  case QN_PIECE_SPHERE: sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k->sphere); break;
+  case QN_PIECE_BOX: box_prepare(&w->f, (const qn_piece_box *)(const void *)head, &k->box); break;
+  case QN_PIECE_ROUND: {
+    const qn_piece_round *r = (const qn_piece_round *)(const void *)head;
+    for (int i = 0; i < 2; i++) {
+      if (r->surface[1 + i] != UINT32_MAX) {
+        plane_prepare(&w->f, r->pivot, r->cap[i], r->cap[i][3], r->surface[1 + i], head->leaf, &k->round.cap[i]);
+      }
+    }
+    body_prepare(&w->f, r->pivot, r->row, r->s, r->l, r->k, r->reach, r->surface[0], head->leaf, &k->round.body);
+    break;
+  }
+  case QN_PIECE_MEET: case QN_PIECE_HARD: break;
+  }
+}
+
+QN_INLINE void from_pivot(const qn_packet *p, int at, const double pivot[3], vd y[3], vd d[3]) {
+  for (int i = 0; i < 3; i++) {
+    y[i] = vsub(vload(p->o[i] + at), vset(pivot[i]));
+    d[i] = vload(p->d[i] + at);
+  }
+}
+
+QN_INLINE stretch whole_line(void) {
+  vd nobody = vset(payload_bits(QN_NOBODY));
+  return (stretch){.a = vset(-QN_FAR), .b = vset(QN_FAR), .pa = nobody, .pb = nobody, .error = vset(0), .hit = vmask(QN_ALL_BITS), .unsure = vmask(0)};
+}
+
+static QN_NOINLINE stretch meet_solve(const walk *w, uint32_t leaf, int g) {
+  const struct quoin_scene *scene = w->scene;
+  const qn_leaf *l = &scene->leaves[leaf];
+  stretch s = whole_line();
+  vd y[3], d[3];
+  from_pivot(w->f.p, g * QN_W, l->pivot, y, d);
+  for (int kind = QN_PLANE; kind <= QN_QUADRIC_BODY; kind++) { /* planes first: they settle which side of a body that opens counts */
+    for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
+      const qn_half *half = &scene->halves[i];
+      if (half->kind != kind) {
+        continue;
+      }
+      if (kind == QN_PLANE) {
+        const qn_plane_shadow *p = &scene->planes[half->shadow];
+        plane_constants k;
+        plane_prepare(&w->f, l->pivot, p->n, p->d, half->surface, leaf, &k);
+        plane_meet(&w->f, &k, y, d, &s);
+      } else {
+        const qn_quadric_shadow *q = &scene->quadrics[half->shadow];
+        body_constants k;
+        double reach = 0;
+        for (int r = 0; r < 3; r++) {
+          double most = fabs(q->row[r][3]);
+          for (int j = 0; j < 3; j++) {
+            most += fabs(q->row[r][j]) * fmax(fabs(l->min[j] - l->pivot[j]), fabs(l->max[j] - l->pivot[j]));
+          }
+          reach += most * most;
+        }
+        body_prepare(&w->f, l->pivot, q->row, q->s, q->l, q->k, sqrt(reach), half->surface, leaf, &k);
+        body_meet(&w->f, &k, y, d, &s);
+      }
+    }
+  }
+  stretch_settle(&s);
+  return s;
+}
+
+QN_INLINE stretch piece_solve(const walk *w, const qn_piece_head *head, const piece_constants *k, int g) {
+  switch ((qn_piece_kind)head->kind) {
+  case QN_PIECE_SPHERE: return sphere_solve(&w->f, &k->sphere, g);
+  case QN_PIECE_BOX: return box_solve(&w->f, &k->box, g);
+  case QN_PIECE_ROUND: {
+    const qn_piece_round *r = (const qn_piece_round *)(const void *)head;
+    stretch s = whole_line();
+    vd y[3], d[3];
+    from_pivot(w->f.p, g * QN_W, r->pivot, y, d);
+    for (int i = 0; i < 2; i++) {
+      if (r->surface[1 + i] != UINT32_MAX) {
+        plane_meet(&w->f, &k->round.cap[i], y, d, &s);
+      }
+    }
+    body_meet(&w->f, &k->round.body, y, d, &s);
+    stretch_settle(&s);
+    return s;
+  }
+  case QN_PIECE_MEET: return meet_solve(w, head->leaf, g);
+  case QN_PIECE_HARD: break;
+  }
+  stretch s = whole_line();
+  s.unsure = s.hit, s.hit = vmask(0);
+  return s;
+}
+
+/* The later of two entries and the sooner of two exits. */
+static void stretch_meet(walk *w, int g, stretch *s, const stretch *o) {
+  vm both = vand(s->hit, o->hit), before, equal;
+  s->unsure = vor(vand(s->unsure, vor(o->hit, o->unsure)), vand(o->unsure, vor(s->hit, s->unsure)));
+  s->error = vmax(s->error, o->error);
+  double *tolerance = w->tolerance + g * QN_W;
+  vstore(tolerance, vmax(vload(tolerance), vmul(s->error, vset(2))));
+  order(w, g, s->a, s->pa, o->a, o->pa, &both, &before, &equal);
+  s->a = vpick(before, o->a, s->a), s->pa = vpick(before, o->pa, s->pa);
+  order(w, g, o->b, o->pb, s->b, s->pb, &both, &before, &equal);
+  s->b = vpick(before, o->b, s->b), s->pb = vpick(before, o->pb, s->pb);
+  order(w, g, s->a, s->pa, s->b, s->pb, &both, &before, &equal);
+  s->hit = before;
+}
+
+typedef struct ends { _Alignas(64) double a[QN_LANES], b[QN_LANES], pa[QN_LANES], pb[QN_LANES]; } ends;
+
+/* Solves a term's positive part for the lanes of `mask`; returns those that meet it. */
+static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out) {
+  const uint32_t *leaves = w->normal->leaves + t->leaf0;
+  uint64_t hits = 0;
+  piece_constants k[2]; /* of the first pieces; the others are prepared group by group */
+  const qn_piece_head *head[2] = {0};
+  for (uint32_t i = 0; i < t->leaves && i < 2; i++) {
+    head[i] = piece_at(w, leaves[i]);
+    piece_prepare(w, head[i], &k[i]);
+  }
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned lanes_in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!lanes_in) {
+      continue;
+    }
+    w->counts.leaves += t->leaves;
+    stretch s = t->leaves ? piece_solve(w, head[0], &k[0], g) : whole_line();
+    for (uint32_t i = 1; i < t->leaves; i++) {
+      piece_constants other;
+      const qn_piece_head *h = i < 2 ? head[i] : piece_at(w, leaves[i]);
+      if (i >= 2) {
+        piece_prepare(w, h, &other);
+      }
+      stretch o = piece_solve(w, h, i < 2 ? &k[i] : &other, g);
+      stretch_meet(w, g, &s, &o);
+    }
+    double *tolerance = w->tolerance + g * QN_W;
+    vstore(tolerance, vmax(vload(tolerance), vmul(s.error, vset(2))));
+    w->unsure |= (uint64_t)(vbits(s.unsure) & lanes_in) << (g * QN_W);
+    int at = g * QN_W;
+    vstore(out->a + at, s.a), vstore(out->b + at, s.b), vstore(out->pa + at, s.pa), vstore(out->pb + at, s.pb);
+    hits |= (uint64_t)(vbits(s.hit) & lanes_in) << at;
+  }
+  return hits & ~w->unsure;
+}
+
+/* --- the two questions --------------------------------------------------------------------------------------------- */
+
+static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best);
+static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask);
+
+/* Moves `at` to the first place at or after it that is in all of the term's plus unions and in none of its minus unions. Lanes that
+   find none before `limit` leave the mask. */
+static uint64_t term_seek(walk *w, const qn_nterm *t, lanes *at, const lanes *limit, uint64_t mask) {
+  const uint32_t *list = w->normal->lists;
+  for (;;) {
+    uint64_t moved = 0;
+    for (uint32_t i = 0; i < t->minus; i++) {
+      moved |= union_leave(w, list[t->minus0 + i], at, mask);
+      mask &= ~w->unsure;
+    }
+    uint64_t again = t->minus > 1 ? moved : 0;
+    for (uint32_t i = 0; i < t->plus; i++) {
+      lanes next = *limit, was = *at;
+      uint64_t found = union_enter(w, list[t->plus0 + i], at, mask, &next);
+      mask &= found & ~w->unsure;
+      for (uint64_t m = mask; m; m &= m - 1) {
+        unsigned k = qn_trailing_zeros(m);
+        if (memcmp(&next.t[k], &was.t[k], 8)) {
+          again |= (uint64_t)1 << k;
+        }
+        at->t[k] = next.t[k], at->p[k] = next.p[k];
+      }
+    }
+    for (int g = 0; g < QN_GROUPS; g++) { /* past the limit: gone */
+      unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+      if (in) {
+        int o = g * QN_W;
+        vm m = vmask(in), before, equal;
+        order(w, g, vload(at->t + o), vload(at->p + o), vload(limit->t + o), vload(limit->p + o), &m, &before, &equal);
+        mask &= ~((uint64_t)(in & ~vbits(before)) << o);
+      }
+    }
+    again &= mask;
+    if (!again) {
+      return mask;
+    }
+  }
+}
+
+static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+  ends e;
+  mask = term_solve(w, t, mask & ~w->unsure, &e);
+  int plain = !t->minus && !t->plus;
+  lanes at, limit;
+  uint64_t seek = 0;
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    int o = g * QN_W;
+    vm m = vmask(in), before, equal, ahead;
+    vd start = vload(from->t + o), pstart = vload(from->p + o), a = vload(e.a + o), pa = vload(e.pa + o), b = vload(e.b + o), pb = vload(e.pb + o);
+    vd limit_t = vload(best->t + o), limit_p = vload(best->p + o);
+    order(w, g, start, pstart, b, pb, &m, &ahead, &equal); /* not yet over */
+    m = vand(m, ahead);
+    order(w, g, start, pstart, a, pa, &m, &before, &equal);
+    vd t1 = vpick(before, a, start), p1 = vpick(before, pa, pstart);
+    order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
+    if (plain) {
+      /* Of two leaves with this surface the first one in the file is named. */
+      unsigned ties = vbits(equal);
+      vstore(best->t + o, vpick(before, t1, limit_t)), vstore(best->p + o, vpick(before, p1, limit_p));
+      if (ties) {
+        _Alignas(64) double p[QN_W];
+        vstore(p, p1);
+        for (int i = 0; i < QN_W; i++) {
+          if (ties >> i & 1) {
+            uint64_t x, y;
+            memcpy(&x, &p[i], 8), memcpy(&y, &best->p[o + i], 8);
+            if ((x >> 32 & 0x7fffffff) < (y >> 32 & 0x7fffffff)) {
+              best->p[o + i] = p[i];
+            }
+          }
+        }
+      }
+      *found |= (uint64_t)(vbits(before) | ties) << o;
+    } else {
+      m = vand(m, before);
+      vstore(at.t + o, t1), vstore(at.p + o, p1);
+      vm sooner; /* the sooner of b and best bounds the search */
+      vm both = m;
+      order(w, g, b, pb, limit_t, limit_p, &both, &sooner, &equal);
+      vstore(limit.t + o, vpick(sooner, b, limit_t)), vstore(limit.p + o, vpick(sooner, pb, limit_p));
+      seek |= (uint64_t)vbits(both) << o;
+    }
+  }
+  if (plain || !seek) {
+    return;
+  }
+  seek = term_seek(w, t, &at, &limit, seek & ~w->unsure);
+  for (uint64_t m = seek & ~w->unsure; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    best->t[k] = at.t[k], best->p[k] = at.p[k];
+    *found |= (uint64_t)1 << k;
+  }
+}
+
+/* The term is left: lanes of `at` that it holds move to its end. Returns those that moved. */
+static uint64_t term_leave(walk *w, const qn_nterm *t, lanes *at, uint64_t mask) {
+  ends e;
+  mask = term_solve(w, t, mask & ~w->unsure, &e);
+  uint64_t held = 0;
+  lanes end;
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    int o = g * QN_W;
+    vm m = vmask(in), before, equal;
+    vd t0 = vload(at->t + o), p0 = vload(at->p + o), b = vload(e.b + o), pb = vload(e.pb + o);
+    order(w, g, t0, p0, b, pb, &m, &before, &equal);
+    m = vand(m, before);
+    order(w, g, t0, p0, vload(e.a + o), vload(e.pa + o), &m, &before, &equal);
+    m = vandnot(m, before); /* a <= t */
+    held |= (uint64_t)vbits(m) << o;
+    vstore(end.t + o, b), vstore(end.p + o, pb);
+  }
+  held &= ~w->unsure;
+  if (held && (t->minus || t->plus)) {
+    const uint32_t *list = w->normal->lists;
+    lanes probe = *at;
+    for (uint32_t i = 0; i < t->minus; i++) { /* in a subtrahend: not held; else out where the next one begins */
+      uint64_t inside = union_leave(w, list[t->minus0 + i], &probe, held);
+      held &= ~(inside | w->unsure);
+      union_enter(w, list[t->minus0 + i], at, held, &end);
+      held &= ~w->unsure;
+    }
+    for (uint32_t i = 0; i < t->plus; i++) {
+      probe = *at;
+      uint64_t inside = union_leave(w, list[t->plus0 + i], &probe, held);
+      held &= inside & ~w->unsure;
+      for (int g = 0; g < QN_GROUPS; g++) {
+        unsigned in = (unsigned)(held >> (g * QN_W)) & QN_ALL_BITS;
+        if (in) {
+          int o = g * QN_W;
+          vm m = vmask(in), before, equal;
+          vd x = vload(probe.t + o), px = vload(probe.p + o), y = vload(end.t + o), py = vload(end.p + o);
+          order(w, g, x, px, y, py, &m, &before, &equal);
+          vstore(end.t + o, vpick(before, x, y)), vstore(end.p + o, vpick(before, px, py));
+        }
+      }
+      held &= ~w->unsure;
+    }
+  }
+  for (uint64_t m = held; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    at->t[k] = end.t[k], at->p[k] = end.p[k];
+  }
+  return held;
+}
+
+/* The largest place still of interest, as a float bound. */
+static float latest(const lanes *best, uint64_t mask) {
+  double most = -INFINITY;
+  for (uint64_t m = mask; m; m &= m - 1) {
+    most = fmax(most, best->t[qn_trailing_zeros(m)]);
+  }
+  return most > 0 ? up(most * (1 + 0x1p-20)) : up(most * (1 - 0x1p-20));
+}
+static float earliest(const lanes *from, uint64_t mask) {
+  double least = INFINITY;
+  for (uint64_t m = mask; m; m &= m - 1) {
+    least = fmin(least, from->t[qn_trailing_zeros(m)]);
+  }
+  return least < 0 ? down(least * (1 + 0x1p-20)) : down(least * (1 - 0x1p-20));
+}
+
+static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
+  const qn_union *un = &w->normal->unions[u];
+  const qn_nterm *terms = w->normal->terms;
+  uint64_t found = 0;
+  mask &= ~w->unsure;
+  if (!mask) {
+    return 0;
+  }
+  for (uint32_t i = 0; i < un->wide; i++) {
+    term_enter(w, &terms[un->wide0 + i], from, mask, best, &found);
+  }
+  if (un->root == QN_NO_ROOT) {
+    return found & ~w->unsure;
+  }
+  struct { float near; uint32_t node; } stack[STACK];
+  int top = 0;
+  float start = earliest(from, mask), end = latest(best, mask);
+  stack[top].near = -INFINITY, stack[top++].node = un->root;
+  while (top) {
+    top--;
+    if (stack[top].near > end) {
+      continue;
+    }
+    uint32_t at = stack[top].node;
+    if (at & QN_BVH_LEAF) {
+      const qn_nterm *t = &terms[at & ~QN_BVH_LEAF];
+      uint64_t in = subs_meet(w, t) & mask & ~w->unsure;
+      if (in) {
+        term_enter(w, t, from, in, best, &found);
+        end = latest(best, mask & ~w->unsure);
+      }
+      continue;
+    }
+    const qn_bvh_node *n = &w->normal->nodes[at];
+    _Alignas(32) float near[8];
+    w->counts.nodes++;
+    unsigned meets = node_meets(w, n, start, end, near);
+    int first = top;
+    for (; meets; meets &= meets - 1) { /* farthest first, so that the nearest is taken next */
+      unsigned c = qn_trailing_zeros(meets);
+      int j = top++;
+      for (; j > first && stack[j - 1].near < near[c]; j--) {
+        stack[j] = stack[j - 1];
+      }
+      stack[j].near = near[c], stack[j].node = n->child[c];
+    }
+  }
+  return found & ~w->unsure;
+}
+
+/* Boxes of the lanes' points, one for each sub-packet; slack for their rounding. */
+typedef struct spots { _Alignas(32) float min[3][SUBS], max[3][SUBS]; float all_min[3], all_max[3]; } spots;
+
+static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
+  const qn_packet *p = w->f.p;
+  for (int i = 0; i < 3; i++) {
+    s->all_min[i] = INFINITY, s->all_max[i] = -INFINITY;
+    for (int k = 0; k < SUBS; k++) {
+      double lo = INFINITY, hi = -INFINITY, size = 0;
+      for (uint64_t m = mask >> (k * SUB_LANES) & 0xff; m; m &= m - 1) {
+        unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
+        double step = at->t[j] * p->d[i][j], x = p->o[i][j] + step;
+        size = fmax(size, fabs(step) + w->tolerance[j] * fabs(p->d[i][j]));
+        lo = fmin(lo, x), hi = fmax(hi, x);
+      }
+      double slack = (size + fmax(fabs(lo), fabs(hi))) * 0x1p-40 + w->f.reach * 0;
+      for (uint64_t m = mask >> (k * SUB_LANES) & 0xff; m; m &= m - 1) {
+        unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
+        slack = fmax(slack, w->tolerance[j] * fabs(p->d[i][j]) * 2);
+      }
+      int used = (mask >> (k * SUB_LANES) & 0xff) != 0;
+      s->min[i][k] = used ? down(lo - slack) : INFINITY;
+      s->max[i][k] = used ? up(hi + slack) : -INFINITY;
+      s->all_min[i] = fminf(s->all_min[i], s->min[i][k]), s->all_max[i] = fmaxf(s->all_max[i], s->max[i][k]);
+    }
+  }
+}
+
+/* One pass: every term that holds a lane is left. Returns the lanes that moved. */
+static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask) {
+  const qn_nterm *terms = w->normal->terms;
+  uint64_t moved = 0;
+  for (uint32_t i = 0; i < un->wide; i++) {
+    moved |= term_leave(w, &terms[un->wide0 + i], at, mask & ~w->unsure);
+  }
+  if (un->root == QN_NO_ROOT) {
+    return moved;
+  }
+  mask &= ~w->unsure;
+  spots s;
+  spots_of(w, at, mask, &s);
+  uint32_t stack[STACK];
+  int top = 0;
+  stack[top++] = un->root;
+  while (top) {
+    uint32_t node = stack[--top];
+    if (node & QN_BVH_LEAF) {
+      const qn_nterm *t = &terms[node & ~QN_BVH_LEAF];
+      unsigned in = 0xff;
+      for (int i = 0; i < 3; i++) {
+        in &= fle(fset(t->min[i]), fload(s.max[i])) & fle(fload(s.min[i]), fset(t->max[i]));
+      }
+      uint64_t lanes_in = 0;
+      for (int k = 0; k < SUBS; k++) {
+        lanes_in |= (uint64_t)(in >> k & 1 ? 0xff : 0) << (8 * k);
+      }
+      lanes_in &= mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
+      if (lanes_in) {
+        moved |= term_leave(w, t, at, lanes_in);
+      }
+      continue;
+    }
+    const qn_bvh_node *n = &w->normal->nodes[node];
+    w->counts.nodes++;
+    unsigned in = 0xff;
+    for (int i = 0; i < 3; i++) {
+      in &= fle(fload(n->min[i]), fset(s.all_max[i])) & fle(fset(s.all_min[i]), fload(n->max[i]));
+    }
+    for (; in; in &= in - 1) {
+      stack[top++] = n->child[qn_trailing_zeros(in)];
+    }
+  }
+  return moved;
+}
+
+static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
+  const qn_union *un = &w->normal->unions[u];
+  uint64_t moved = 0, now = mask & ~w->unsure;
+  while (now) {
+    now = leave_once(w, un, at, now) & ~w->unsure;
+    moved |= now;
+  }
+  return moved & ~w->unsure;
+}
+
+/* --- a packet ------------------------------------------------------------------------------------------------------ */
+
+static void facts(walk *w, const qn_packet *p) {
+  packet_facts *f = &w->f;
+  f->p = p;
+  const qn_normal *normal = w->normal;
+  (void)normal;
+  double reach2 = 0;
+  for (int i = 0; i < 3; i++) {
+    double lo = INFINITY, hi = -INFINITY, dlo = INFINITY, dhi = -INFINITY;
+    for (int k = 0; k < SUBS; k++) {
+      double slo = INFINITY, shi = -INFINITY, ilo = INFINITY, ihi = -INFINITY;
+      for (int j = k * SUB_LANES; j < (k + 1) * SUB_LANES; j++) {
+        double o = p->o[i][j], d = p->d[i][j], inv = d != 0 ? 1 / d : 0;
+        f->inv[i][j] = inv;
+        slo = fmin(slo, o), shi = fmax(shi, o);
+        dlo = fmin(dlo, d), dhi = fmax(dhi, d);
+        ilo = fmin(ilo, inv), ihi = fmax(ihi, inv);
+      }
+      w->omin[i][k] = down(slo), w->omax[i][k] = up(shi);
+      /* Widened away from the true range in either direction, so that the products' rounding cannot matter. */
+      w->imin[i][k] = down(ilo - fabs(ilo) * 0x1p-20), w->imax[i][k] = up(ihi + fabs(ihi) * 0x1p-20);
+      lo = fmin(lo, slo), hi = fmax(hi, shi);
+    }
+    w->axis[i] = dlo > 0 ? AXIS_UP : dhi < 0 ? AXIS_DOWN : dlo == 0 && dhi == 0 ? AXIS_FLAT : AXIS_MIXED;
+    w->all_omin[i] = INFINITY, w->all_omax[i] = -INFINITY, w->all_imin[i] = INFINITY, w->all_imax[i] = -INFINITY;
+    for (int k = 0; k < SUBS; k++) {
+      w->all_omin[i] = fminf(w->all_omin[i], w->omin[i][k]), w->all_omax[i] = fmaxf(w->all_omax[i], w->omax[i][k]);
+      w->all_imin[i] = fminf(w->all_imin[i], w->imin[i][k]), w->all_imax[i] = fmaxf(w->all_imax[i], w->imax[i][k]);
+    }
+    if (!isfinite(w->all_imin[i]) || !isfinite(w->all_imax[i])) {
+      w->axis[i] = AXIS_MIXED;
+    }
+    f->omin[i] = lo, f->omax[i] = hi;
+    f->dabs[i] = fmax(fabs(dlo), fabs(dhi));
+    double far = fmax(fabs(lo), fabs(hi)) + fmax(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
+    reach2 += far * far;
+  }
+  f->dd_min = INFINITY, f->dd_max = 0;
+  for (int j = 0; j < QN_LANES; j++) {
+    double dd = p->d[0][j] * p->d[0][j] + p->d[1][j] * p->d[1][j] + p->d[2][j] * p->d[2][j];
+    f->idd[j] = 1 / dd;
+    f->dd_min = fmin(f->dd_min, dd), f->dd_max = fmax(f->dd_max, dd);
+  }
+  f->reach = 1.001 * sqrt(reach2 / f->dd_min);
+}
+
+void QN_FIRST(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
+void QN_FIRST(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
+  walk w = {.scene = scene, .normal = &scene->normal};
+  facts(&w, packet);
+  lanes start, best;
+  const double nobody = payload_bits(QN_NOBODY);
+  for (int j = 0; j < QN_LANES; j++) {
+    w.tolerance[j] = 0;
+    start.t[j] = fmax(packet->from[j], -QN_FAR), start.p[j] = nobody;
+    best.t[j] = fmin(packet->to[j], QN_FAR), best.p[j] = nobody;
+  }
+  uint64_t mask = packet->live, leaving = 0;
+  uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);
+  uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
+  for (uint64_t m = found; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    within |= (uint64_t)!memcmp(&best.p[k], &nobody, 8) << k;
+  }
+  if (within) {
+    lanes at = start;
+    uint64_t left = union_leave(&w, scene->normal.root, &at, within);
+    found &= ~(within & ~left);
+    leaving = left;
+    for (uint64_t m = left & ~w.unsure; m; m &= m - 1) {
+      unsigned k = qn_trailing_zeros(m);
+      best.t[k] = at.t[k], best.p[k] = at.p[k];
+      double gap = packet->to[k] - at.t[k];
+      if (gap < -w.tolerance[k] || at.t[k] >= QN_FAR) {
+        found &= ~((uint64_t)1 << k);
+      } else if (!(gap > w.tolerance[k])) {
+        w.unsure |= (uint64_t)1 << k;
+      }
+    }
+  }
+  hits->unsure = w.unsure & packet->live;
+  hits->found = found & packet->live & ~w.unsure;
+  hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
+  hits->far_end = 0;
+  for (uint64_t m = hits->found; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    uint64_t payload;
+    memcpy(&payload, &best.p[k], 8);
+    hits->t[k] = best.t[k];
+    hits->error[k] = w.tolerance[k] / 2;
+    hits->surface[k] = (uint32_t)payload;
+    hits->leaf[k] = (uint32_t)(payload >> 32) & 0x7fffffff;
+    hits->far_end |= (payload >> 63) << k;
+  }
+  counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves, counts->packets++;
+}

@@ -1,0 +1,128 @@
+/* The small set of vector operations that wide code is written over, once; compiled for each instruction set by defining
+   QN_ISA_SSE2, QN_ISA_AVX2 or QN_ISA_AVX512. Everything here is static: nothing wide leaks out of its object.
+
+   Legend: vd: QN_W doubles; vm: QN_W lane masks; bits: lane i is bit i. vf8: eight floats, whatever the width of vd
+   (a node has eight children). Rounding is to nearest; fma rounds once where the machine can and twice in the baseline:
+   it stands only where an error bound allows both. */
+#ifndef QN_WIDE_VEC_H
+#define QN_WIDE_VEC_H
+
+#include "base/attrs.h"
+
+#include <immintrin.h>
+#include <stdint.h>
+
+#if defined(QN_ISA_AVX512)
+#define QN_W 8
+typedef __m512d vd;
+typedef __mmask8 vm;
+QN_INLINE vd vset(double a) { return _mm512_set1_pd(a); }
+QN_INLINE vd vload(const double *p) { return _mm512_load_pd(p); }
+QN_INLINE void vstore(double *p, vd a) { _mm512_store_pd(p, a); }
+QN_INLINE vd vadd(vd a, vd b) { return _mm512_add_pd(a, b); }
+QN_INLINE vd vsub(vd a, vd b) { return _mm512_sub_pd(a, b); }
+QN_INLINE vd vmul(vd a, vd b) { return _mm512_mul_pd(a, b); }
+QN_INLINE vd vdiv(vd a, vd b) { return _mm512_div_pd(a, b); }
+QN_INLINE vd vsqrt(vd a) { return _mm512_sqrt_pd(a); }
+QN_INLINE vd vfma(vd a, vd b, vd c) { return _mm512_fmadd_pd(a, b, c); }
+QN_INLINE vd vfms(vd a, vd b, vd c) { return _mm512_fmsub_pd(a, b, c); }
+QN_INLINE vd vmin(vd a, vd b) { return _mm512_min_pd(a, b); }
+QN_INLINE vd vmax(vd a, vd b) { return _mm512_max_pd(a, b); }
+QN_INLINE vd vabs(vd a) { return _mm512_abs_pd(a); }
+QN_INLINE vm vlt(vd a, vd b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
+QN_INLINE vm vle(vd a, vd b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
+QN_INLINE vm vand(vm a, vm b) { return (vm)(a & b); }
+QN_INLINE vm vor(vm a, vm b) { return (vm)(a | b); }
+QN_INLINE vm vandnot(vm a, vm b) { return (vm)(a & ~b); } /* a and not b */
+QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm512_mask_blend_pd(m, b, a); } /* m ? a : b */
+QN_INLINE unsigned vbits(vm m) { return m; }
+QN_INLINE vm vmask(unsigned bits) { return (vm)bits; }
+
+#elif defined(QN_ISA_AVX2)
+#define QN_W 4
+typedef __m256d vd;
+typedef __m256d vm;
+QN_INLINE vd vset(double a) { return _mm256_set1_pd(a); }
+QN_INLINE vd vload(const double *p) { return _mm256_load_pd(p); }
+QN_INLINE void vstore(double *p, vd a) { _mm256_store_pd(p, a); }
+QN_INLINE vd vadd(vd a, vd b) { return _mm256_add_pd(a, b); }
+QN_INLINE vd vsub(vd a, vd b) { return _mm256_sub_pd(a, b); }
+QN_INLINE vd vmul(vd a, vd b) { return _mm256_mul_pd(a, b); }
+QN_INLINE vd vdiv(vd a, vd b) { return _mm256_div_pd(a, b); }
+QN_INLINE vd vsqrt(vd a) { return _mm256_sqrt_pd(a); }
+QN_INLINE vd vfma(vd a, vd b, vd c) { return _mm256_fmadd_pd(a, b, c); }
+QN_INLINE vd vfms(vd a, vd b, vd c) { return _mm256_fmsub_pd(a, b, c); }
+QN_INLINE vd vmin(vd a, vd b) { return _mm256_min_pd(a, b); }
+QN_INLINE vd vmax(vd a, vd b) { return _mm256_max_pd(a, b); }
+QN_INLINE vd vabs(vd a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
+QN_INLINE vm vlt(vd a, vd b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
+QN_INLINE vm vle(vd a, vd b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
+QN_INLINE vm vand(vm a, vm b) { return _mm256_and_pd(a, b); }
+QN_INLINE vm vor(vm a, vm b) { return _mm256_or_pd(a, b); }
+QN_INLINE vm vandnot(vm a, vm b) { return _mm256_andnot_pd(b, a); }
+QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm256_blendv_pd(b, a, m); }
+QN_INLINE unsigned vbits(vm m) { return (unsigned)_mm256_movemask_pd(m); }
+QN_INLINE vm vmask(unsigned bits) {
+  const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
+  return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)bits), lane), lane));
+}
+
+#else
+#define QN_W 2
+typedef __m128d vd;
+typedef __m128d vm;
+QN_INLINE vd vset(double a) { return _mm_set1_pd(a); }
+QN_INLINE vd vload(const double *p) { return _mm_load_pd(p); }
+QN_INLINE void vstore(double *p, vd a) { _mm_store_pd(p, a); }
+QN_INLINE vd vadd(vd a, vd b) { return _mm_add_pd(a, b); }
+QN_INLINE vd vsub(vd a, vd b) { return _mm_sub_pd(a, b); }
+QN_INLINE vd vmul(vd a, vd b) { return _mm_mul_pd(a, b); }
+QN_INLINE vd vdiv(vd a, vd b) { return _mm_div_pd(a, b); }
+QN_INLINE vd vsqrt(vd a) { return _mm_sqrt_pd(a); }
+QN_INLINE vd vfma(vd a, vd b, vd c) { return _mm_add_pd(_mm_mul_pd(a, b), c); }
+QN_INLINE vd vfms(vd a, vd b, vd c) { return _mm_sub_pd(_mm_mul_pd(a, b), c); }
+QN_INLINE vd vmin(vd a, vd b) { return _mm_min_pd(a, b); }
+QN_INLINE vd vmax(vd a, vd b) { return _mm_max_pd(a, b); }
+QN_INLINE vd vabs(vd a) { return _mm_andnot_pd(_mm_set1_pd(-0.0), a); }
+QN_INLINE vm vlt(vd a, vd b) { return _mm_cmplt_pd(a, b); }
+QN_INLINE vm vle(vd a, vd b) { return _mm_cmple_pd(a, b); }
+QN_INLINE vm vand(vm a, vm b) { return _mm_and_pd(a, b); }
+QN_INLINE vm vor(vm a, vm b) { return _mm_or_pd(a, b); }
+QN_INLINE vm vandnot(vm a, vm b) { return _mm_andnot_pd(b, a); }
+QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)); }
+QN_INLINE unsigned vbits(vm m) { return (unsigned)_mm_movemask_pd(m); }
+QN_INLINE vm vmask(unsigned bits) {
+  return _mm_castsi128_pd(_mm_set_epi64x(bits & 2 ? -1 : 0, bits & 1 ? -1 : 0));
+}
+#endif
+
+#define QN_ALL_BITS ((1u << QN_W) - 1)
+
+/* --- eight floats ----------------------------------------------------------------------------------------------- */
+#if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
+typedef __m256 vf8;
+QN_INLINE vf8 fset(float a) { return _mm256_set1_ps(a); }
+QN_INLINE vf8 fload(const float *p) { return _mm256_load_ps(p); }
+QN_INLINE void fstore(float *p, vf8 a) { _mm256_store_ps(p, a); }
+QN_INLINE vf8 fadd(vf8 a, vf8 b) { return _mm256_add_ps(a, b); }
+QN_INLINE vf8 fsub(vf8 a, vf8 b) { return _mm256_sub_ps(a, b); }
+QN_INLINE vf8 fmul(vf8 a, vf8 b) { return _mm256_mul_ps(a, b); }
+QN_INLINE vf8 fmin8(vf8 a, vf8 b) { return _mm256_min_ps(a, b); }
+QN_INLINE vf8 fmax8(vf8 a, vf8 b) { return _mm256_max_ps(a, b); }
+QN_INLINE unsigned fle(vf8 a, vf8 b) { return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
+#else
+typedef struct vf8 { __m128 a, b; } vf8;
+QN_INLINE vf8 fset(float a) { return (vf8){_mm_set1_ps(a), _mm_set1_ps(a)}; }
+QN_INLINE vf8 fload(const float *p) { return (vf8){_mm_load_ps(p), _mm_load_ps(p + 4)}; }
+QN_INLINE void fstore(float *p, vf8 v) { _mm_store_ps(p, v.a), _mm_store_ps(p + 4, v.b); }
+QN_INLINE vf8 fadd(vf8 x, vf8 y) { return (vf8){_mm_add_ps(x.a, y.a), _mm_add_ps(x.b, y.b)}; }
+QN_INLINE vf8 fsub(vf8 x, vf8 y) { return (vf8){_mm_sub_ps(x.a, y.a), _mm_sub_ps(x.b, y.b)}; }
+QN_INLINE vf8 fmul(vf8 x, vf8 y) { return (vf8){_mm_mul_ps(x.a, y.a), _mm_mul_ps(x.b, y.b)}; }
+QN_INLINE vf8 fmin8(vf8 x, vf8 y) { return (vf8){_mm_min_ps(x.a, y.a), _mm_min_ps(x.b, y.b)}; }
+QN_INLINE vf8 fmax8(vf8 x, vf8 y) { return (vf8){_mm_max_ps(x.a, y.a), _mm_max_ps(x.b, y.b)}; }
+QN_INLINE unsigned fle(vf8 x, vf8 y) {
+  return (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.a, y.a)) | (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.b, y.b)) << 4;
+}
+#endif
+
+#endif

@@ -1,0 +1,397 @@
+/* Roots of quadratics: their order and the double nearest to each, against MPFR at a precision that exceeds the separation of
+   distinct roots of such coefficients many times over. */
+#include "number/quad.h"
+
+#include <float.h>
+#include <math.h>
+#include <mpfr.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { ORACLE_BITS = 3000, TIE_BITS = 1200 };
+
+static qn_mem mem;
+static qn_ctx ctx;
+
+static int setup(void **state) {
+  (void)state;
+  qn_mem_init(&mem, NULL);
+  qn_ctx_init(&ctx, &mem);
+  return 0;
+}
+static int teardown(void **state) {
+  (void)state;
+  qn_ctx_free(&ctx);
+  return 0;
+}
+
+static uint64_t seed = 88172645463325252u;
+static uint64_t next(void) {
+  seed ^= seed << 13;
+  seed ^= seed >> 7;
+  seed ^= seed << 17;
+  return seed;
+}
+static int64_t pick(int64_t n) { return (int64_t)(next() % (uint64_t)(2 * n + 1)) - n; } /* -n .. n */
+
+static void to_mpfr(mpfr_t out, qn_int v) {
+  char *text = qn_int_text(&ctx, v);
+  assert_non_null(text);
+  mpfr_set_str(out, text, 10, MPFR_RNDN);
+}
+
+/* The root by the textbook formula at ORACLE_BITS. */
+static void oracle(mpfr_t out, qn_root x) {
+  mpfr_t a, h, c, d;
+  mpfr_inits2(ORACLE_BITS, a, h, c, d, (mpfr_ptr)0);
+  to_mpfr(a, x.q->a.v);
+  to_mpfr(h, x.q->h.v);
+  to_mpfr(c, x.q->c.v);
+  if (mpfr_zero_p(a)) {
+    mpfr_div(out, c, h, MPFR_RNDN);
+    mpfr_div_si(out, out, -2, MPFR_RNDN);
+  } else {
+    mpfr_mul(d, h, h, MPFR_RNDN); /* exact: coefficients are much shorter than the precision */
+    mpfr_mul(out, a, c, MPFR_RNDN);
+    mpfr_sub(d, d, out, MPFR_RNDN);
+    mpfr_sqrt(d, d, MPFR_RNDN);
+    if ((x.which == 1) != (mpfr_sgn(a) < 0)) {
+      mpfr_sub(out, d, h, MPFR_RNDN);
+    } else {
+      mpfr_add(out, d, h, MPFR_RNDN);
+      mpfr_neg(out, out, MPFR_RNDN);
+    }
+    mpfr_div(out, out, a, MPFR_RNDN);
+  }
+  mpfr_clears(a, h, c, d, (mpfr_ptr)0);
+}
+
+static int oracle_order(qn_root x, qn_root y) {
+  mpfr_t r, s;
+  mpfr_inits2(ORACLE_BITS, r, s, (mpfr_ptr)0);
+  oracle(r, x);
+  oracle(s, y);
+  mpfr_sub(r, r, s, MPFR_RNDN);
+  int order = mpfr_zero_p(r) || mpfr_get_exp(r) < -TIE_BITS ? 0 : mpfr_sgn(r);
+  mpfr_clears(r, s, (mpfr_ptr)0);
+  return order;
+}
+
+static qn_quad make(int64_t a, int64_t h, int64_t c) {
+  qn_quad q;
+  qn_quad_make(&ctx, qn_x(qn_int_from(&ctx, a)), qn_x(qn_int_from(&ctx, h)), qn_x(qn_int_from(&ctx, c)), &q);
+  return q;
+}
+static qn_quad times(qn_quad q, int64_t k) {
+  qn_quad p;
+  qn_quad_make(&ctx, qn_x_scale(&ctx, q.a, k), qn_x_scale(&ctx, q.h, k), qn_x_scale(&ctx, q.c, k), &p);
+  return p;
+}
+
+static int roots_of(const qn_quad *q) {
+  switch (qn_quad_kind(q)) {
+  case QN_QUAD_ZERO:
+  case QN_QUAD_CONSTANT:
+  case QN_QUAD_NONE: return 0;
+  case QN_QUAD_LINEAR:
+  case QN_QUAD_DOUBLE: return 1;
+  case QN_QUAD_TWO: return 2;
+  }
+  return 0;
+}
+
+typedef struct census { unsigned ties, less, more, linear, dbl, two, negative, proportional; } census;
+
+static void judge(const qn_quad *p, const qn_quad *q, census *c) {
+  int m = roots_of(p), n = roots_of(q);
+  c->linear += qn_quad_kind(p) == QN_QUAD_LINEAR;
+  c->dbl += qn_quad_kind(p) == QN_QUAD_DOUBLE;
+  c->two += m == 2;
+  c->negative += p->sign_a < 0;
+  for (int i = 0; i < m; i++) {
+    for (int j = 0; j < n; j++) {
+      qn_root x = {p, i}, y = {q, j};
+      int got = qn_root_cmp(&ctx, x, y), want = oracle_order(x, y);
+      assert_int_equal(got, want);
+      assert_int_equal(qn_root_cmp(&ctx, y, x), -want);
+      c->ties += want == 0;
+      c->less += want < 0;
+      c->more += want > 0;
+      qn_int num, den;
+      if (want < 0) {
+        qn_root_between(&ctx, x, y, &num, &den);
+        assert_true(qn_root_cmp_rat(&ctx, x, num, den) < 0 && qn_root_cmp_rat(&ctx, y, num, den) > 0);
+      }
+      if (want == 0 && qn_root_rational(&ctx, x, &num, &den)) {
+        assert_int_equal(qn_root_cmp_rat(&ctx, y, num, den), 0);
+        assert_int_equal(qn_quad_sign_at(&ctx, q, num, den), 0);
+      }
+    }
+  }
+}
+
+static void clear(void) {
+  qn_ctx_free(&ctx);
+  qn_ctx_init(&ctx, &mem);
+}
+
+/* Every pair of quadratics with coefficients in -3..3, and larger random ones of every kind. */
+static void test_order(void **state) {
+  (void)state;
+  census c = {0};
+  enum { SIDE = 2, COUNT = (2 * SIDE + 1) * (2 * SIDE + 1) * (2 * SIDE + 1) };
+  for (int i = 0; i < COUNT; i++) {
+    for (int j = 0; j < COUNT; j += 1 + (int)(next() % 3)) {
+      qn_quad p = make(i / 25 - SIDE, i / 5 % 5 - SIDE, i % 5 - SIDE), q = make(j / 25 - SIDE, j / 5 % 5 - SIDE, j % 5 - SIDE);
+      judge(&p, &q, &c);
+    }
+    clear();
+  }
+  for (int i = 0; i < 6000; i++) {
+    int64_t size = (int64_t)1 << (1 + next() % 40);
+    qn_quad p, q;
+    switch (next() % 5) {
+    case 0: /* unrelated */
+      p = make(pick(size), pick(size), pick(size));
+      q = make(pick(size), pick(size), pick(size));
+      break;
+    case 1: { /* a common rational root r/s: (s t - r)(u t - v), doubled so that h is an integer */
+      int64_t n = (int64_t)1 << (1 + next() % 14), r = pick(n), s = pick(n), u = pick(n), v = pick(n), w = pick(n), z = pick(n);
+      p = make(2 * s * u, -(s * v + r * u), 2 * r * v);
+      q = make(2 * s * w, -(s * z + r * w), 2 * r * z);
+      break;
+    }
+    case 2: { /* proportional, either sign */
+      p = make(pick(size), pick(size), pick(size));
+      int64_t k = pick(9);
+      q = times(p, k ? k : -1);
+      c.proportional++;
+      break;
+    }
+    case 3: /* one coefficient differs by one */
+      p = make(pick(size), pick(size), pick(size));
+      q = p;
+      qn_quad_make(&ctx, p.a, p.h, qn_x_add(&ctx, p.c, qn_x(qn_int_from(&ctx, 1))), &q);
+      break;
+    default: { /* a double root r/s and a neighbour */
+      int64_t n = (int64_t)1 << (1 + next() % 20), r = pick(n), s = pick(n), k = (next() & 1) ? 1 : -1;
+      p = make(k * s * s, -k * r * s, k * r * r);
+      q = make(s * s, -r * s, r * r - 1);
+      break;
+    }
+    }
+    judge(&p, &q, &c);
+    if (i % 50 == 0) {
+      clear();
+    }
+  }
+  assert_true(c.ties > 2000 && c.less > 5000 && c.more > 5000 && c.linear > 500 && c.dbl > 500 && c.two > 5000 && c.negative > 3000 && c.proportional > 500);
+}
+
+static void test_kinds(void **state) {
+  (void)state;
+  qn_quad q = make(0, 0, 0);
+  assert_int_equal(qn_quad_kind(&q), QN_QUAD_ZERO);
+  q = make(0, 0, -4);
+  assert_int_equal(qn_quad_kind(&q), QN_QUAD_CONSTANT);
+  q = make(0, -2, 4); /* -4 t + 4 */
+  assert_int_equal(qn_quad_kind(&q), QN_QUAD_LINEAR);
+  assert_true(qn_root_to_double(&ctx, (qn_root){&q, 0}) == 1.0);
+  q = make(1, 1, 2);
+  assert_int_equal(qn_quad_kind(&q), QN_QUAD_NONE);
+  q = make(-4, 6, -9);
+  assert_int_equal(qn_quad_kind(&q), QN_QUAD_DOUBLE);
+  assert_true(qn_root_to_double(&ctx, (qn_root){&q, 0}) == 1.5);
+  q = make(1, 0, -2);
+  assert_int_equal(qn_quad_kind(&q), QN_QUAD_TWO);
+  qn_int num, den;
+  assert_false(qn_root_rational(&ctx, (qn_root){&q, 0}, &num, &den));
+  qn_root_below(&ctx, (qn_root){&q, 0}, &num, &den);
+  assert_true(qn_root_cmp_rat(&ctx, (qn_root){&q, 0}, num, den) > 0);
+  qn_root_above(&ctx, (qn_root){&q, 1}, &num, &den);
+  assert_true(qn_root_cmp_rat(&ctx, (qn_root){&q, 1}, num, den) < 0);
+  q = make(-1, -1, 3); /* roots -3 and 1 */
+  assert_true(qn_root_rational(&ctx, (qn_root){&q, 0}, &num, &den));
+  assert_true(qn_int_equal(num, qn_int_from(&ctx, -3)) && qn_int_equal(den, qn_int_from(&ctx, 1)));
+  assert_true(qn_root_rational(&ctx, (qn_root){&q, 1}, &num, &den));
+  assert_true(qn_int_equal(num, qn_int_from(&ctx, 1)));
+}
+
+static qn_int random_int(size_t bits) {
+  mp_limb_t limbs[16];
+  size_t n = (bits + 63) / 64;
+  for (size_t i = 0; i < n; i++) {
+    limbs[i] = next();
+  }
+  if (bits % 64) {
+    limbs[n - 1] &= ((mp_limb_t)1 << (bits % 64)) - 1;
+  }
+  return qn_int_from_limbs(&ctx, limbs, (mp_size_t)n, (int)(next() & 1));
+}
+
+static void check_rounding(const qn_quad *q, unsigned *seen) {
+  for (int i = 0; i < roots_of(q); i++) {
+    mpfr_t r;
+    mpfr_init2(r, ORACLE_BITS);
+    oracle(r, (qn_root){q, i});
+    double want = mpfr_get_d(r, MPFR_RNDN), got = qn_root_to_double(&ctx, (qn_root){q, i});
+    mpfr_clear(r);
+    if (want == 0) {
+      assert_true(got == 0 && !signbit(got));
+    } else {
+      assert_true(memcmp(&want, &got, sizeof want) == 0);
+    }
+    ++*seen;
+  }
+}
+
+static void test_to_double(void **state) {
+  (void)state;
+  unsigned seen = 0;
+  for (int i = 0; i < 20000; i++) {
+    qn_quad q;
+    qn_int a = random_int(next() % 300), h = random_int(next() % 300), c = random_int(next() % 400);
+    if (next() % 8 == 0) {
+      a = qn_int_from(&ctx, 0);
+    }
+    if (next() % 8 == 0) {
+      c = qn_int_from(&ctx, 0);
+    }
+    if (next() % 8 == 0) {
+      h = qn_int_from(&ctx, 0);
+    }
+    qn_quad_make(&ctx, qn_x(a), qn_x(h), qn_x(c), &q);
+    check_rounding(&q, &seen);
+    if (i % 50 == 0) {
+      clear();
+    }
+  }
+  assert_true(seen > 15000);
+}
+
+/* (D t - m)(t - k) with m/D in the middle between two doubles, and off it by 2^-300: ties go to even, the rest to their side. */
+static void test_to_double_middles(void **state) {
+  (void)state;
+  unsigned seen = 0;
+  for (int i = 0; i < 4000; i++) {
+    int64_t m = (int64_t)(((uint64_t)1 << 53) + (next() >> 12 << 1) + 1); /* 54 bits, odd: a middle */
+    if (next() & 1) {
+      m = -m;
+    }
+    size_t shift = next() % 4 ? next() % 90 : 1000 + next() % 100;
+    qn_int d = qn_int_shl(&ctx, qn_int_from(&ctx, 1), shift), num = qn_int_from(&ctx, m);
+    int off = (int)(next() % 3) - 1; /* below, at, above */
+    if (off) {
+      num = qn_int_add(&ctx, qn_int_shl(&ctx, num, 300), qn_int_from(&ctx, off));
+      d = qn_int_shl(&ctx, d, 300);
+    }
+    qn_int k = qn_int_from(&ctx, pick(1000));
+    qn_int two_h = qn_int_neg(qn_int_add(&ctx, qn_int_mul(&ctx, d, k), num));
+    qn_quad q;
+    qn_quad_make(&ctx, qn_x(qn_int_shl(&ctx, d, 1)), qn_x(two_h), qn_x(qn_int_shl(&ctx, qn_int_mul(&ctx, num, k), 1)), &q);
+    check_rounding(&q, &seen);
+    /* sqrt(m^2 + off 2^-j): irrational roots within 2^-100 of a middle */
+    qn_int mm = qn_int_shl(&ctx, qn_int_mul(&ctx, qn_int_from(&ctx, m), qn_int_from(&ctx, m)), 120);
+    mm = qn_int_add(&ctx, mm, qn_int_from(&ctx, off));
+    qn_quad_make(&ctx, qn_x(qn_int_shl(&ctx, qn_int_from(&ctx, 1), 120)), qn_x(qn_int_from(&ctx, 0)), qn_x(qn_int_neg(mm)), &q);
+    check_rounding(&q, &seen);
+    if (i % 50 == 0) {
+      clear();
+    }
+  }
+  assert_true(seen > 12000);
+}
+
+/* Overflow, subnormals, and the least half. */
+static void test_to_double_range(void **state) {
+  (void)state;
+  unsigned seen = 0;
+  for (int i = 0; i < 4000; i++) {
+    qn_int n = qn_int_from(&ctx, pick((int64_t)1 << (next() % 60))), one = qn_int_from(&ctx, (int64_t)(1 + next() % 7));
+    size_t shift = next() & 1 ? 940 + next() % 90 : 1040 + next() % 100;
+    qn_quad q;
+    if (next() & 1) {
+      qn_quad_make(&ctx, qn_x(qn_int_from(&ctx, 0)), qn_x(qn_int_shl(&ctx, one, shift)), qn_x(n), &q);
+    } else {
+      qn_quad_make(&ctx, qn_x(qn_int_from(&ctx, 0)), qn_x(one), qn_x(qn_int_shl(&ctx, n, shift)), &q);
+    }
+    check_rounding(&q, &seen);
+    qn_quad_make(&ctx, qn_x(qn_int_shl(&ctx, one, shift)), qn_x(n), qn_x(qn_int_neg(one)), &q);
+    check_rounding(&q, &seen);
+    qn_quad_make(&ctx, qn_x(one), qn_x(n), qn_x(qn_int_neg(qn_int_shl(&ctx, one, 2 * shift))), &q);
+    check_rounding(&q, &seen);
+    if (i % 50 == 0) {
+      clear();
+    }
+  }
+  assert_true(seen > 10000);
+}
+
+/* S2: the same plane through two roundings ties; a gap of 2^-150 does not. */
+static void test_rounded(void **state) {
+  (void)state;
+  mpfr_t s;
+  mpfr_init2(s, 256);
+  mpfr_sqrt_ui(s, 2, MPFR_RNDN);
+  mpfr_mul_2ui(s, s, 255, MPFR_RNDN);
+  char digits[128];
+  mpfr_snprintf(digits, sizeof digits, "%.0Rf", s);
+  mpfr_clear(s);
+  qn_int root2 = qn_int_from_digits(&ctx, digits, strlen(digits));
+  qn_xint one = qn_x(qn_int_from(&ctx, 1)), zero = qn_x(qn_int_from(&ctx, 0));
+  qn_quad p, q, r, e;
+  /* 2^256 t - 2 root2: t = sqrt 2; the same with its last bits wrong; the same moved by 2^-150; and t^2 = 2 exactly */
+  qn_quad_make(&ctx, zero, qn_x_shl(&ctx, one, 255), qn_x_rounded(qn_int_neg(qn_int_shl(&ctx, root2, 1))), &p);
+  qn_quad_make(&ctx, zero, qn_x_shl(&ctx, one, 255), qn_x_rounded(qn_int_neg(qn_int_shl(&ctx, qn_int_add(&ctx, root2, qn_int_from(&ctx, 1000003)), 1))), &q);
+  qn_int moved = qn_int_add(&ctx, root2, qn_int_shl(&ctx, qn_int_from(&ctx, 1), 255 - 150));
+  qn_quad_make(&ctx, zero, qn_x_shl(&ctx, one, 255), qn_x_rounded(qn_int_neg(qn_int_shl(&ctx, moved, 1))), &r);
+  qn_quad_make(&ctx, one, zero, qn_x(qn_int_from(&ctx, -2)), &e);
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&p, 0}, (qn_root){&q, 0}), 0);
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&p, 0}, (qn_root){&r, 0}), -1);
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&r, 0}, (qn_root){&q, 0}), 1);
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&p, 0}, (qn_root){&e, 1}), 0);
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&r, 0}, (qn_root){&e, 1}), 1);
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&p, 0}, (qn_root){&e, 0}), 1);
+  /* t^2 - 2 sqrt2 t + 2 with a rounded sqrt 2: a double root */
+  qn_xint a = qn_x_shl(&ctx, one, 255), h = qn_x_rounded(qn_int_neg(root2)), c = qn_x_shl(&ctx, one, 256);
+  qn_quad d;
+  qn_quad_make(&ctx, a, h, c, &d);
+  assert_int_equal(qn_quad_kind(&d), QN_QUAD_DOUBLE);
+  assert_true(qn_root_to_double(&ctx, (qn_root){&d, 0}) == sqrt(2.0));
+  assert_int_equal(qn_root_cmp(&ctx, (qn_root){&d, 0}, (qn_root){&e, 1}), 0);
+  qn_int num, den;
+  qn_root_between(&ctx, (qn_root){&p, 0}, (qn_root){&r, 0}, &num, &den);
+  assert_true(qn_int_bits(den) > 140);
+}
+
+/* A refused allocation is told by the context, and nothing hangs. */
+static void test_memory(void **state) {
+  (void)state;
+  qn_mem small;
+  quoin_allocator limits = {NULL, NULL, NULL, NULL, 16384};
+  qn_mem_init(&small, &limits);
+  qn_ctx c;
+  qn_ctx_init(&c, &small);
+  qn_int big = qn_int_shl(&c, qn_int_from(&c, 1), 30000);
+  qn_quad q, p;
+  qn_quad_make(&c, qn_x(qn_int_from(&c, 1)), qn_x(big), qn_x(qn_int_from(&c, 7)), &q);
+  qn_quad_make(&c, qn_x(qn_int_from(&c, 1)), qn_x(qn_int_add(&c, big, big)), qn_x(qn_int_from(&c, 5)), &p);
+  qn_int num, den;
+  (void)qn_root_cmp(&c, (qn_root){&q, 0}, (qn_root){&p, 1});
+  (void)qn_root_to_double(&c, (qn_root){&q, 0});
+  qn_root_between(&c, (qn_root){&q, 0}, (qn_root){&p, 0}, &num, &den);
+  assert_int_equal(c.failed, QUOIN_E_MEMORY);
+  qn_ctx_free(&c);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_kinds),      cmocka_unit_test(test_order),        cmocka_unit_test(test_to_double), cmocka_unit_test(test_to_double_middles),
+    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_memory),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}

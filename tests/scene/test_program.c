@@ -1,0 +1,210 @@
+/* Programs against a plain evaluation of the tree they were made of. */
+#include "scene/program.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+static uint64_t state = 12345;
+static uint32_t rnd(uint32_t n) {
+  state = state * 6364136223846793005u + 1442695040888963407u;
+  return (uint32_t)((state >> 33) % n);
+}
+
+enum { MOST = 200 };
+
+/* The value of the tree, children before parents. */
+static int plain(const qn_term *terms, size_t n, const int *inside) {
+  int any[MOST] = {0}, all[MOST];
+  for (size_t i = 0; i < n; i++) {
+    all[i] = 1;
+  }
+  for (size_t i = n; i-- > 0;) {
+    int v = 0;
+    switch ((qn_term_kind)terms[i].kind) {
+    case QN_TERM_OR: v = any[i]; break;
+    case QN_TERM_AND: v = all[i]; break;
+    case QN_TERM_LEAF: v = inside[i] != terms[i].negated; break;
+    case QN_TERM_FALSE: v = 0; break;
+    case QN_TERM_TRUE: v = 1; break;
+    }
+    if (i == 0) {
+      return v;
+    }
+    any[terms[i].parent] |= v;
+    all[terms[i].parent] &= v;
+  }
+  return 0;
+}
+
+static size_t random_tree(qn_term *terms, size_t n, uint32_t constants) {
+  terms[0] = (qn_term){.parent = QN_NO_GATE, .kind = (uint8_t)rnd(2)};
+  uint32_t path[MOST] = {0}, depth = 1;
+  for (size_t i = 1; i < n; i++) {
+    depth = rnd(3) ? depth : 1 + rnd(depth);
+    terms[i] = (qn_term){.parent = path[depth - 1], .leaf = (uint32_t)i, .kind = QN_TERM_LEAF, .negated = (uint8_t)rnd(2)};
+    uint32_t what = rnd(10);
+    if (what < 4) {
+      terms[i].kind = (uint8_t)rnd(2);
+      path[depth++] = (uint32_t)i;
+    } else if (what == 4 && constants) {
+      terms[i].kind = rnd(2) ? QN_TERM_TRUE : QN_TERM_FALSE;
+    }
+  }
+  uint8_t kids[MOST] = {0};
+  for (size_t i = n; i-- > 1;) { /* a gate without children is a constant: mostly not wanted */
+    if (terms[i].kind <= QN_TERM_AND && !kids[i] && (!constants || rnd(4))) {
+      terms[i].kind = QN_TERM_LEAF;
+    }
+    kids[terms[i].parent] = 1;
+  }
+  return n;
+}
+
+static void check_shape(const qn_program *p) {
+  assert_true(p->gate_count >= 1);
+  assert_int_equal(p->gates[0].parent, QN_NO_GATE);
+  for (size_t i = 1; i < p->gate_count; i++) {
+    assert_true(p->gates[i].parent < i);
+    assert_int_not_equal(p->gates[i].is_and, p->gates[p->gates[i].parent].is_and);
+    assert_true(p->gates[i].kids >= 2);
+  }
+}
+
+static void random_trees(void **unused) {
+  (void)unused;
+  qn_mem mem;
+  qn_mem_init(&mem, NULL);
+  size_t kept = 0, dropped = 0, constant = 0, deep = 0;
+  for (int round = 0; round < 3000; round++) {
+    qn_term terms[MOST], copy[MOST];
+    size_t n = random_tree(terms, 1 + rnd(MOST - 1), rnd(3) == 0);
+    for (size_t i = 0; i < n; i++) {
+      copy[i] = terms[i];
+    }
+    qn_program p;
+    assert_int_equal(qn_program_build(&p, &mem, terms, n), QUOIN_OK);
+    check_shape(&p);
+    constant += p.gates[0].kids == 0;
+    deep += p.gate_count > 5;
+    qn_eval eval;
+    assert_true(qn_eval_init(&eval, &p, &mem));
+    int inside[MOST] = {0};
+    assert_int_equal(eval.value, plain(copy, n, inside));
+    for (int pass = 0; pass < 2; pass++) {
+      for (int step = 0; step < 100; step++) {
+        size_t i = rnd((uint32_t)n);
+        if (copy[i].kind != QN_TERM_LEAF) {
+          continue;
+        }
+        inside[i] = !inside[i];
+        if (terms[i].gate == QN_NO_GATE) {
+          dropped++;
+        } else {
+          kept++;
+          assert_int_equal(qn_eval_change(&eval, terms[i].gate, inside[i] != copy[i].negated ? 1 : -1), plain(copy, n, inside));
+        }
+        assert_int_equal(eval.value, plain(copy, n, inside));
+      }
+      qn_eval_reset(&eval);
+      for (size_t i = 0; i < n; i++) {
+        inside[i] = 0;
+      }
+      assert_int_equal(eval.value, plain(copy, n, inside));
+    }
+    qn_eval_free(&eval, &mem);
+    qn_program_free(&p, &mem);
+  }
+  assert_true(kept > 10000 && dropped > 1000 && constant > 50 && deep > 500); /* each kind did occur */
+  assert_int_equal(mem.used, 0);
+}
+
+static void small_ones(void **unused) {
+  (void)unused;
+  qn_mem mem;
+  qn_mem_init(&mem, NULL);
+  qn_program p;
+  qn_term none[] = {{.parent = QN_NO_GATE, .kind = QN_TERM_OR}};
+  assert_int_equal(qn_program_build(&p, &mem, none, 1), QUOIN_OK);
+  assert_int_equal(p.gate_count, 1);
+  assert_int_equal(p.base, 0);
+  qn_program_free(&p, &mem);
+
+  qn_term all[] = {{.parent = QN_NO_GATE, .kind = QN_TERM_OR}, {.parent = 0, .kind = QN_TERM_LEAF}, {.parent = 0, .kind = QN_TERM_AND}};
+  assert_int_equal(qn_program_build(&p, &mem, all, 3), QUOIN_OK);
+  assert_int_equal(p.gate_count, 1);
+  assert_int_equal(p.base, 1);
+  assert_int_equal(all[1].gate, QN_NO_GATE);
+  qn_program_free(&p, &mem);
+
+  /* A - B below wrappers of one child: one AND gate, the root itself. */
+  qn_term difference[] = {{.parent = QN_NO_GATE, .kind = QN_TERM_OR}, {.parent = 0, .kind = QN_TERM_OR}, {.parent = 1, .kind = QN_TERM_AND},
+                          {.parent = 2, .kind = QN_TERM_LEAF}, {.parent = 2, .kind = QN_TERM_LEAF, .negated = 1}};
+  assert_int_equal(qn_program_build(&p, &mem, difference, 5), QUOIN_OK);
+  assert_int_equal(p.gate_count, 1);
+  assert_true(p.gates[0].is_and && p.gates[0].kids == 2 && p.gates[0].base == 1 && p.gates[0].need == 2 && p.base == 0);
+  assert_int_equal(difference[3].gate, 0);
+  assert_int_equal(difference[4].gate, 0);
+  qn_program_free(&p, &mem);
+}
+
+static void deep_chain(void **unused) {
+  (void)unused;
+  qn_mem mem;
+  qn_mem_init(&mem, NULL);
+  enum { LEVELS = 100000 };
+  qn_term *terms = qn_alloc(&mem, 2 * LEVELS * sizeof *terms);
+  assert_non_null(terms);
+  for (uint32_t i = 0; i < LEVELS; i++) {
+    terms[2 * i] = (qn_term){.parent = i ? 2 * (i - 1) : QN_NO_GATE, .kind = i % 2 ? QN_TERM_AND : QN_TERM_OR};
+    terms[2 * i + 1] = (qn_term){.parent = 2 * i, .kind = QN_TERM_LEAF};
+  }
+  qn_program p;
+  assert_int_equal(qn_program_build(&p, &mem, terms, 2 * LEVELS), QUOIN_OK);
+  assert_int_equal(p.gate_count, LEVELS - 1); /* the last gate has one child */
+  qn_eval eval;
+  assert_true(qn_eval_init(&eval, &p, &mem));
+  for (uint32_t i = LEVELS; i-- > 1;) { /* all but the root's own leaf: then the deepest decides */
+    assert_int_equal(qn_eval_change(&eval, terms[2 * i + 1].gate, 1), i == 1);
+  }
+  assert_int_equal(qn_eval_change(&eval, terms[2 * LEVELS - 1].gate, -1), 1); /* an OR above has its own leaf */
+  qn_eval_free(&eval, &mem);
+  qn_program_free(&p, &mem);
+  qn_free(&mem, terms, 2 * LEVELS * sizeof *terms);
+  assert_int_equal(mem.used, 0);
+}
+
+static void refused_memory(void **unused) {
+  (void)unused;
+  int refused = 0;
+  for (size_t limit = 1; limit < 2000; limit += 7) {
+    quoin_allocator a = {.limit = limit};
+    qn_mem mem;
+    qn_mem_init(&mem, &a);
+    state = 7;
+    qn_term terms[60];
+    size_t n = random_tree(terms, 60, 0);
+    qn_program p;
+    if (qn_program_build(&p, &mem, terms, n) == QUOIN_OK) {
+      qn_eval eval;
+      if (qn_eval_init(&eval, &p, &mem)) {
+        qn_eval_free(&eval, &mem);
+      } else {
+        refused++;
+      }
+      qn_program_free(&p, &mem);
+    } else {
+      refused++;
+    }
+    assert_int_equal(mem.used, 0);
+  }
+  assert_true(refused > 3 && refused < 280);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(random_trees), cmocka_unit_test(small_ones), cmocka_unit_test(deep_chain),
+                                     cmocka_unit_test(refused_memory)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
