@@ -76,6 +76,6 @@ color(ebony) translate([21, 9, 0]) {
   }
 }
 
-camera(eye = [33, -27, 24], look = [12.2, 5.4, 2.6], fov = 28.5);
+camera(eye = [33, -27, 24], look = [12.3, 5.2, 2.0], fov = 30);
 light(direction = [0.75, 0.62, -1.25], color = [0.85, 0.83, 0.8]);
 light(direction = [-1, 0.9, -0.5], color = [0.28, 0.29, 0.32]);

@@ -9,22 +9,38 @@ color(steel) {
     translate([0, 0, -5]) cylinder(h = 11.5, r1 = 6.3, r2 = 17.8);
   }
   cylinder(h = 6, r = crest);                              // the shank
-  translate([0, 0, 6]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 7]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 8]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 9]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 10]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 11]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 12]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 13]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 14]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 15]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 16]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 17]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 18]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 19]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 20]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
-  translate([0, 0, 21]) { cylinder(h = half, r1 = core, r2 = crest); translate([0, 0, half]) cylinder(h = half, r1 = crest, r2 = core); }
+  translate([0, 0, 6]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 6 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 7]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 7 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 8]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 8 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 9]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 9 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 10]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 10 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 11]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 11 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 12]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 12 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 13]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 13 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 14]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 14 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 15]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 15 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 16]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 16 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 17]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 17 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 18]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 18 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 19]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 19 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 20]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 20 + half]) cylinder(h = half, r1 = crest, r2 = core);
+  translate([0, 0, 21]) cylinder(h = half, r1 = core, r2 = crest);
+  translate([0, 0, 21 + half]) cylinder(h = half, r1 = crest, r2 = core);
   translate([0, 0, 22]) cylinder(h = 0.8, r1 = core, r2 = core - 0.8);
 }
 color(brass) translate([0, 0, 12]) difference() {          // the nut, half way up

@@ -32,9 +32,9 @@ material(color = [0.60, 0.63, 0.67], ambient = 0.2, diffuse = 0.4, specular = 0.
   translate([0, -3, 0]) paraboloid(base = [0, 0, 0], axis = [0, 0, 1], h = 3.4, r = 2);
 // silver
 material(color = [0.86, 0.87, 0.88], ambient = 0.2, diffuse = 0.5, specular = 0.9, shininess = 90)
-  translate([5, -3, 2]) hyperboloid(h = 2, r = 1.9, rc = 0.9);
+  translate([5, -3, 1.5]) hyperboloid(h = 1.5, r = 1.8, rc = 0.9);
 // iron
 material(color = [0.28, 0.28, 0.31], ambient = 0.2, diffuse = 0.5, specular = 0.35, shininess = 8)
   translate([10, -3, 1.6]) superquadric(r = [1.7, 1.7, 1.6], e = 0.4, n = 0.4);
 
-material(color = [0.80, 0.81, 0.80], ambient = 0.25, diffuse = 0.75, specular = 0) halfspace(n = [0, 0, 1], d = 0);
+material(color = [0.64, 0.65, 0.63], ambient = 0.25, diffuse = 0.75, specular = 0) halfspace(n = [0, 0, 1], d = 0);

@@ -2,6 +2,7 @@
 #include "base/thread.h"
 #include "base/limits.h"
 
+#include <mpfr.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
@@ -62,6 +63,7 @@ static void work(worker *w, const quoin_progress *progress) {
 
 static void *run(void *arg) {
   work(arg, NULL);
+  mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); /* what exact arithmetic kept for this thread alone would be lost with it */
   return NULL;
 }
 

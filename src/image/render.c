@@ -49,7 +49,20 @@ static quoin_status tracer_of(rendering *r, unsigned thread, qn_tracer **out) {
   return status;
 }
 
-/* A batch of samples that is being gathered, with the pixel (within the tile) each belongs to. */
+/* Pixels of a tile are visited along a Z curve, so that any 64 in turn from a multiple of 64 are an 8 x 8 block: rays that are asked
+   together are neighbours both ways. k < TILE_PIXELS; column and row are the even and the odd bits of k. 0: outside the picture. */
+static int pixel_at(const tile *t, uint32_t k, size_t *x, size_t *y) {
+  size_t column = 0, row = 0;
+  for (uint32_t bit = 0; TILE >> bit > 1; bit++) {
+    column |= (size_t)(k >> 2 * bit & 1) << bit;
+    row |= (size_t)(k >> (2 * bit + 1) & 1) << bit;
+  }
+  *x = t->x0 + column;
+  *y = t->y0 + row;
+  return *x < t->x1 && *y < t->y1;
+}
+
+/* A batch of samples that is being gathered, with the pixel (its k within the tile) each belongs to. */
 typedef struct batch {
   size_t count;
   double xy[QN_BATCH][2];
@@ -57,24 +70,38 @@ typedef struct batch {
   qn_sample samples[QN_BATCH];
 } batch;
 
+static void add_sample(batch *b, double x, double y, uint32_t owner) {
+  b->xy[b->count][0] = x;
+  b->xy[b->count][1] = y;
+  b->owner[b->count++] = owner;
+}
+
+/* Traces what was gathered and puts it into the picture as it is. */
+static quoin_status flush_first(rendering *r, qn_tracer *tracer, const tile *t, batch *b) {
+  const quoin_status status = qn_trace(&r->picture, tracer, b->count, (const double(*)[2])b->xy, b->samples);
+  for (size_t i = 0; status == QUOIN_OK && i < b->count; i++) {
+    size_t x, y;
+    (void)pixel_at(t, b->owner[i], &x, &y);
+    put(r, x, y, b->samples[i].light);
+    r->surfaces[y * r->pass.width + x] = b->samples[i].surface;
+  }
+  b->count = 0;
+  return status;
+}
+
 static quoin_status first_tile(void *user, unsigned thread, size_t number) {
   rendering *r = user;
   const tile t = tile_at(r, number);
   qn_tracer *tracer;
   quoin_status status = tracer_of(r, thread, &tracer);
-  const size_t across = t.x1 - t.x0, pixels = across * (t.y1 - t.y0);
-  batch b;
-  for (size_t done = 0; status == QUOIN_OK && done < pixels; done += b.count) {
-    b.count = pixels - done < QN_BATCH ? pixels - done : QN_BATCH;
-    for (size_t k = 0; k < b.count; k++) {
-      b.xy[k][0] = (double)(t.x0 + (done + k) % across) + 0.5;
-      b.xy[k][1] = (double)(t.y0 + (done + k) / across) + 0.5;
+  batch b = {.count = 0};
+  for (uint32_t k = 0; status == QUOIN_OK && k < TILE_PIXELS; k++) {
+    size_t x, y;
+    if (pixel_at(&t, k, &x, &y)) {
+      add_sample(&b, (double)x + 0.5, (double)y + 0.5, k);
     }
-    status = qn_trace(&r->picture, tracer, b.count, (const double(*)[2])b.xy, b.samples);
-    for (size_t k = 0; status == QUOIN_OK && k < b.count; k++) {
-      const size_t x = t.x0 + (done + k) % across, y = t.y0 + (done + k) / across;
-      put(r, x, y, b.samples[k].light);
-      r->surfaces[y * r->pass.width + x] = b.samples[k].surface;
+    if (b.count == QN_BATCH || (b.count && k == TILE_PIXELS - 1)) {
+      status = flush_first(r, tracer, &t, &b);
     }
   }
   return status;
@@ -113,36 +140,31 @@ static quoin_status refine_tile(void *user, unsigned thread, size_t number) {
   memset(sums, 0, sizeof sums);
   batch b = {.count = 0};
   const unsigned samples = r->side * r->side;
-  for (size_t y = t.y0; y < t.y1; y++) {
-    for (size_t x = t.x0; x < t.x1; x++) {
-      if (!r->refine[y * r->pass.width + x]) {
-        continue;
-      }
-      for (unsigned k = 0; status == QUOIN_OK && k < samples; k++) {
-        double across, down;
-        qn_refine_place(r->side, k, &across, &down);
-        b.xy[b.count][0] = (double)x + across;
-        b.xy[b.count][1] = (double)y + down;
-        b.owner[b.count] = (uint32_t)((y - t.y0) * TILE + (x - t.x0));
-        if (++b.count == QN_BATCH) {
-          status = flush_batch(r, tracer, &b, sums);
-        }
+  for (uint32_t k = 0; k < TILE_PIXELS; k++) {
+    size_t x, y;
+    if (!pixel_at(&t, k, &x, &y) || !r->refine[y * r->pass.width + x]) {
+      continue;
+    }
+    for (unsigned i = 0; status == QUOIN_OK && i < samples; i++) {
+      double across, down;
+      qn_refine_place(r->side, i, &across, &down);
+      add_sample(&b, (double)x + across, (double)y + down, k);
+      if (b.count == QN_BATCH) {
+        status = flush_batch(r, tracer, &b, sums);
       }
     }
   }
   if (status == QUOIN_OK && b.count) {
     status = flush_batch(r, tracer, &b, sums);
   }
-  for (size_t y = t.y0; status == QUOIN_OK && y < t.y1; y++) {
-    for (size_t x = t.x0; x < t.x1; x++) {
-      if (r->refine[y * r->pass.width + x]) {
-        double *sum = sums[(y - t.y0) * TILE + (x - t.x0)];
-        for (int c = 0; c < 3; c++) {
-          sum[c] /= samples;
-        }
-        put(r, x, y, sum);
-        tracer->refined_pixels++;
+  for (uint32_t k = 0; status == QUOIN_OK && k < TILE_PIXELS; k++) {
+    size_t x, y;
+    if (pixel_at(&t, k, &x, &y) && r->refine[y * r->pass.width + x]) {
+      for (int c = 0; c < 3; c++) {
+        sums[k][c] /= samples;
       }
+      put(r, x, y, sums[k]);
+      tracer->refined_pixels++;
     }
   }
   return status;

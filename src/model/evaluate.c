@@ -233,7 +233,14 @@ static void begin(qn_evaluator *ev, const qn_statement *st, uint32_t parent, uin
     return;
   }
   uint32_t node = w->make(&call);
-  if (node == QN_NO_NODE) {
+  quoin_status failed = ev->ctx.failed ? ev->ctx.failed : ev->model->ctx.failed;
+  if (failed == QUOIN_E_LIMIT) {
+    ev->ctx.failed = ev->model->ctx.failed = QUOIN_OK;
+    qn_arg_tell(&call, QN_Q0904, -1, "an exact result of more than 131072 bits", NULL, "exact number too large");
+  } else if (failed) {
+    ev->failed = failed;
+  }
+  if (node == QN_NO_NODE || ev->failed) {
     return;
   }
   quoin_model *m = ev->model;

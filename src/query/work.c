@@ -12,6 +12,7 @@ quoin_status quoin_work_new(const quoin_scene *scene, quoin_work **out) {
   }
   work->scene = scene;
   work->mem = scene->mem;
+  work->wide = qn_wide_pick();
   work->stamp = qn_alloc_zeroed(work->mem, scene->surface_count * sizeof *work->stamp);
   work->sign = qn_alloc_zeroed(work->mem, scene->surface_count);
   quoin_status status = work->stamp && work->sign ? qn_scratch_new(scene, &work->scratch) : QUOIN_E_MEMORY;

@@ -3,6 +3,7 @@
 #define QN_QUERY_WORK_H
 
 #include "ray/around.h"
+#include "wide/packet.h"
 
 enum { QN_LOCALS = 64 }; /* a power of two */
 
@@ -21,6 +22,7 @@ struct quoin_work {
   const quoin_scene *scene;
   qn_mem *mem;
   qn_scratch *scratch;
+  const qn_wide *wide; /* the packet body in use */
 
   /* A point's question (point.c). */
   uint32_t *stamp, now;   /* by surface: sign[] was found in question `now` */

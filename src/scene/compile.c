@@ -371,6 +371,9 @@ QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compi
   b.local.ctx.max_bits = QN_MAX_SCENE_BITS;
   quoin_status status = make(&b, options);
   status = status == QUOIN_OK ? fit_all(&b) : status;
+  status = status == QUOIN_OK ? qn_normal_build(&s->normal, s, b.mem, qn_thread_count(options->threads)) : status;
+  status = status == QUOIN_OK ? qn_pieces_build(s, b.mem) : status;
+  s->bytes += qn_normal_bytes(&s->normal) + s->line_count * 64 + s->leaf_count * sizeof *s->line_of;
   qn_maps_free(&b.maps, b.mem);
   qn_ctx_free(&b.local.ctx);
   qn_free(b.mem, b.local.rows, b.local.rows_capacity * sizeof *b.local.rows);
@@ -412,6 +415,9 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   qn_free(mem, s->quadrics, s->quadric_count * sizeof *s->quadrics);
   qn_program_free(&s->program, mem);
   qn_bvh_free(&s->bvh, mem);
+  qn_normal_free(&s->normal, mem);
+  qn_free_line(mem, s->lines, s->line_count * 64);
+  qn_free(mem, s->line_of, s->leaf_count * sizeof *s->line_of);
   qn_free(mem, s->unbounded, s->unbounded_count * sizeof *s->unbounded);
   qn_free(mem, s->materials, s->material_count * sizeof *s->materials);
   qn_free(mem, s->part_names, s->part_name_room * sizeof *s->part_names);

@@ -279,32 +279,97 @@ static int rows_by_numbers(qn_building *b, const qn_leaf *leaf, double (*rows)[3
   return regular ? 1 : -1;
 }
 
-/* The key of an aligned plane, 0 for others. */
-static uint32_t key_of(qn_building *b, const qn_half_form *h) {
-  const qn_composed *map = &b->maps.stack[b->maps.count - 1];
+/* Draws the box in to an exact bound along a world axis, rounded outward. */
+static void draw_in(qn_ctx *ctx, qn_leaf *leaf, int axis, qn_num at, int is_max) {
+  double v = qn_num_to_double(at);
+  if (!isfinite(v)) {
+    return;
+  }
+  int below = qn_num_cmp(ctx, qn_num_from_double(ctx, v), at);
+  v = is_max && below < 0 ? nextafter(v, INFINITY) : !is_max && below > 0 ? nextafter(v, -INFINITY) : v;
+  if (is_max && v < leaf->max[axis]) {
+    leaf->max[axis] = v;
+  } else if (!is_max && v > leaf->min[axis]) {
+    leaf->min[axis] = v;
+  }
+}
+
+/* The one axis that a row is about, or -1. */
+static int axis_of(const qn_num row[4]) {
   int axis = -1;
   for (int k = 0; k < 3; k++) {
-    if (!qn_num_is_zero(h->row[0][k])) {
+    if (!qn_num_is_zero(row[k])) {
       if (axis >= 0) {
-        return 0;
+        return -1;
       }
       axis = k;
     }
   }
-  if (axis < 0 || !map->aligned) {
-    return 0;
-  }
+  return axis;
+}
+
+/* The world axis to which the top map takes a local one, and the place on it of local x_axis = (shift - row[3]) / row[axis]. */
+static int world_place(qn_building *b, const qn_num row[4], int axis, qn_num shift, qn_num *at) {
+  const qn_composed *map = &b->maps.stack[b->maps.count - 1];
   qn_ctx *ctx = &b->maps.scratch;
-  qn_mark mark = qn_arena_mark(&ctx->arena);
   int world = 0;
   while (qn_num_is_zero(map->exact[4 * world + axis])) {
     world++;
   }
-  qn_num at = qn_num_div(ctx, qn_num_neg(ctx, h->row[0][3]), h->row[0][axis]);
-  at = qn_num_add(ctx, qn_num_mul(ctx, map->exact[4 * world + axis], at), map->exact[4 * world + 3]);
-  uint32_t key = ctx->failed != QUOIN_OK ? UINT32_MAX : qn_key_of(b, world, at);
+  *at = qn_num_div(ctx, qn_num_sub(ctx, shift, row[3]), row[axis]);
+  *at = qn_num_add(ctx, qn_num_mul(ctx, map->exact[4 * world + axis], *at), map->exact[4 * world + 3]);
+  return world;
+}
+
+/* The key of a plane, 0 for one that is not aligned. An aligned plane also bounds the box, exactly. */
+static uint32_t key_of(qn_building *b, const qn_half_form *h, const double row[4], qn_leaf *leaf) {
+  int axis = axis_of(h->row[0]);
+  if (axis < 0 || !b->maps.stack[b->maps.count - 1].aligned) {
+    return 0;
+  }
+  qn_ctx *ctx = &b->maps.scratch;
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  qn_num at;
+  int world = world_place(b, h->row[0], axis, QN_NUM_ZERO, &at);
+  uint32_t key = UINT32_MAX;
+  if (ctx->failed == QUOIN_OK) {
+    if (at.kind == QN_NUM_SMALL && leaf->bounded) {
+      draw_in(ctx, leaf, world, at, row[world] > 0);
+    }
+    key = qn_key_of(b, world, at);
+  }
   qn_arena_release(&ctx->arena, mark);
   return key;
+}
+
+/* An aligned ellipsoid or cylinder: s_i X_i^2 + ... <= -k bounds X_i by the root of -k / s_i, exactly where that is rational. */
+static void bound_by_body(qn_building *b, const qn_half_form *h, qn_leaf *leaf) {
+  qn_ctx *ctx = &b->maps.scratch;
+  if (h->kind != QN_QUADRIC_BODY || !b->maps.stack[b->maps.count - 1].aligned || !qn_num_is_zero(h->l) || qn_num_sign(h->k) >= 0 ||
+      qn_num_sign(h->s[0]) < 0 || qn_num_sign(h->s[1]) < 0 || qn_num_sign(h->s[2]) < 0) {
+    return;
+  }
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  qn_num root = QN_NUM_ZERO;
+  for (int i = 0; i < 3; i++) {
+    int axis = axis_of(h->row[i]);
+    if (axis < 0 || qn_num_is_zero(h->s[i])) {
+      continue;
+    }
+    if (i == 0 || !qn_num_equal(h->s[i], h->s[i - 1])) {
+      root = qn_num_sqrt(ctx, qn_num_div(ctx, qn_num_neg(ctx, h->k), h->s[i]));
+    }
+    if (root.kind != QN_NUM_SMALL) {
+      continue;
+    }
+    qn_num one, other;
+    int world = world_place(b, h->row[i], axis, root, &one);
+    world_place(b, h->row[i], axis, qn_num_neg(ctx, root), &other);
+    int greater = qn_num_cmp(ctx, one, other) > 0;
+    draw_in(ctx, leaf, world, greater ? one : other, 1);
+    draw_in(ctx, leaf, world, greater ? other : one, 0);
+  }
+  qn_arena_release(&ctx->arena, mark);
 }
 
 static int is_convex(const qn_half_form *h) {
@@ -317,7 +382,7 @@ static int is_convex(const qn_half_form *h) {
   return qn_num_sign(h->s[0]) >= 0 && qn_num_sign(h->s[1]) >= 0 && qn_num_sign(h->s[2]) >= 0;
 }
 
-static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[3][4]) {
+static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[3][4], qn_leaf *leaf) {
   quoin_scene *s = b->scene;
   if (!qn_grow(b->mem, &s->halves, &b->half_capacity, s->half_count + 1) || !qn_grow(b->mem, &b->keys, &b->key_capacity, s->half_count + 1)) {
     return QUOIN_E_MEMORY;
@@ -326,7 +391,7 @@ static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[
   *out = (qn_half){.role = h->role, .kind = (uint8_t)h->kind};
   uint32_t key = 0;
   if (h->kind == QN_PLANE) {
-    if (!qn_grow(b->mem, &s->planes, &b->plane_capacity, s->plane_count + 1) || (key = key_of(b, h)) == UINT32_MAX) {
+    if (!qn_grow(b->mem, &s->planes, &b->plane_capacity, s->plane_count + 1) || (key = key_of(b, h, rows[0], leaf)) == UINT32_MAX) {
       return QUOIN_E_MEMORY;
     }
     out->shadow = (uint32_t)s->plane_count;
@@ -345,6 +410,9 @@ static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[
     }
     q->l = shadow_of(h->l);
     q->k = shadow_of(h->k);
+    if (leaf->bounded) {
+      bound_by_body(b, h, leaf);
+    }
   }
   b->keys[s->half_count++] = key;
   return QUOIN_OK;
@@ -367,7 +435,7 @@ quoin_status qn_leaf_add(qn_building *b, qn_leaf *leaf, qn_form_result *result) 
   leaf->convex = 1;
   for (size_t h = 0; status == QUOIN_OK && done > 0 && h < l->count; h++) {
     leaf->convex &= (uint8_t)is_convex(&l->halves[h]);
-    status = b->scene->half_count < UINT32_MAX / 2 ? add_half(b, &l->halves[h], rows[h]) : QUOIN_E_LIMIT;
+    status = b->scene->half_count < UINT32_MAX / 2 ? add_half(b, &l->halves[h], rows[h], leaf) : QUOIN_E_LIMIT;
   }
   qn_arena_release(&ctx->arena, mark);
   return status;

@@ -1,6 +1,7 @@
 /* Cylinder, elliptic cylinder, cone, frustum: h, a1, b1 at the bottom, a2, b2 at the top, center.
 
-   With A, B the larger pair of semi-axes and a1 b2 = a2 b1, the semi-axes at height z (from the bottom) are a(z) and a(z) B / A with
+   With A, B the larger pair of semi-axes and a1 b2 = a2 b1, the semi-axes at height z (from the bottom) are a(z) and a(z) B / A
+   with
    h a(z) = a1 h - (a1 - a2) z. The body:
        a1 = a2:  B^2 x^2 + A^2 y^2 - A^2 B^2          (A = B: x^2 + y^2 - A^2)
        else:     B^2 h^2 x^2 + A^2 h^2 y^2 - B^2 Z^2,  Z = (a1 - a2) z - a1 h   (A = B: h^2 x^2 + h^2 y^2 - Z^2)

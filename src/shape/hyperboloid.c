@@ -1,12 +1,15 @@
 /* Hyperboloids of one sheet (h, r, rc) and of two (h, r, gap), both sheets kept; capped at z = -h (cap0) and z = h (cap1).
    Placed: the base is the centre (the waist's), the axis the direction of +z.
 
-   One sheet: x^2 + y^2 = rc^2 + (r^2 - rc^2) z^2 / h^2, times h^2:  h^2 x^2 + h^2 y^2 - (r^2 - rc^2) z^2 - rc^2 h^2. A waist wider than the ends
+   One sheet: x^2 + y^2 = rc^2 + (r^2 - rc^2) z^2 / h^2, times h^2:  h^2 x^2 + h^2 y^2 - (r^2 - rc^2) z^2 - rc^2 h^2. A waist
+   wider than the ends
    gives a barrel (an ellipsoid's zone), equal radii a cylinder, rc = 0 a double cone.
    Two sheets, g = gap: x^2 + y^2 = r^2 (z^2 - g^2) / (h^2 - g^2), times h^2 - g^2:  (h^2 - g^2)(x^2 + y^2) - r^2 z^2 + r^2 g^2.
 
-   Support. rc <= r and two sheets: the solid lies in the cylinder between its end discs and holds the discs, so the discs' support is its own. A barrel with E^2 = rc^2 - r^2 is a zone of the ellipsoid with semi-axes rc and h rc / E; with
-   H = h |v_z| and s = |(v_x, v_y)| the ellipsoid's support rc sqrt((H/E)^2 + s^2) is reached at a height h rc H / (E sqrt(H^2 + E^2 s^2)), inside
+   Support. rc <= r and two sheets: the solid lies in the cylinder between its end discs and holds the discs, so the discs'
+   support is its own. A barrel with E^2 = rc^2 - r^2 is a zone of the ellipsoid with semi-axes rc and h rc / E; with
+   H = h |v_z| and s = |(v_x, v_y)| the ellipsoid's support rc sqrt((H/E)^2 + s^2) is reached at a height h rc H / (E sqrt(H^2 +
+   E^2 s^2)), inside
    the zone when r H < E^2 s; else the disc's, H + r s, is the greatest. The first is an upper bound in any case, so it is taken
    unless the other is certain. */
 #include "shape/outward.h"

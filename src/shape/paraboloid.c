@@ -4,7 +4,8 @@
    Unplaced ζ = z, centred ζ = z + h/2. Placed, the base is the cap's centre and the axis points to the vertex: with z along the
    axis ζ = h - z, centred ζ = h/2 - z.
 
-   Support, with r = |(a v_x, b v_y)| and g the part of v along increasing ζ: the rim of ζ = h t^2 gives r t + g h t^2, t in [0, 1]. For
+   Support, with r = |(a v_x, b v_y)| and g the part of v along increasing ζ: the rim of ζ = h t^2 gives r t + g h t^2, t in [0,
+   1]. For
    g >= 0 that is greatest at t = 1; else at t = r / (-2 g h), when that is below 1. A rounded t costs the second order only. */
 #include "shape/outward.h"
 #include "shape/round.h"

@@ -1,6 +1,7 @@
 /* Convex polyhedron: n, m, then n planes a, b, c, d (a x + b y + c z <= d), then m vertices. Faces 0 to n - 1.
 
-   Support: the greatest of the vertices. (u, v): the two coordinates that the face's normal bends least, as shares of the vertices' box. */
+   Support: the greatest of the vertices. (u, v): the two coordinates that the face's normal bends least, as shares of the
+   vertices' box. */
 #include "shape/exact.h"
 #include "shape/outward.h"
 #include "shape/rows.h"

@@ -31,9 +31,12 @@ typedef enum qn_prim {
   QN_PRIM_COUNT
 } qn_prim;
 
-/* A placement: base point and axis vector (exact, axis not zero). The local z axis goes to axis / |axis|, the local x and y axes where
-   rotate([0, acos(w_z / |w|), atan2(w_y, w_x)]) takes them (w the axis), so that axis +z changes nothing and -z is half a turn about y.
-   Only round primitives (row->round; a prism is one) take it. Sphere, ellipsoid, hyperboloids: base is the centre; cylinder and prism: the
+/* A placement: base point and axis vector (exact, axis not zero). The local z axis goes to axis / |axis|, the local x and y axes
+   where
+   rotate([0, acos(w_z / |w|), atan2(w_y, w_x)]) takes them (w the axis), so that axis +z changes nothing and -z is half a turn
+   about y.
+   Only round primitives (row->round; a prism is one) take it. Sphere, ellipsoid, hyperboloids: base is the centre; cylinder and
+   prism: the
    bottom's centre, or the middle when centred. */
 typedef struct qn_placement { qn_num base[3], axis[3]; } qn_placement;
 
@@ -42,7 +45,8 @@ typedef enum qn_half_kind { QN_PLANE, QN_QUADRIC_BODY, QN_SUPER_BODY } qn_half_k
 typedef struct qn_half_form {
   qn_half_kind kind;
   uint32_t role;     /* QUOIN_BODY, QUOIN_CAP0, QUOIN_CAP1, QUOIN_FACE + k. cap0: z = 0, -h, -h/2 or the paraboloid's one; cap1 the other.
-                        Faces: cube -x, +x, -y, +y, -z, +z; wedge -x, the slanted one, -y, +y, -z; prism side k from vertex k to k + 1; polyhedron plane k.
+                        Faces: cube -x, +x, -y, +y, -z, +z; wedge -x, the slanted one, -y, +y, -z; prism side k from vertex k to k
+                        + 1; polyhedron plane k.
                         A superquadric's are all QUOIN_BODY. */
   qn_num row[3][4];  /* QN_PLANE uses row[0] */
   qn_num s[3], l, k; /* QN_SUPER_BODY: s[0] = e, s[1] = n */
@@ -60,8 +64,10 @@ typedef struct qn_prim_row {
      reader, but anything degenerate that is left gives EMPTY. */
   qn_form_result (*form)(qn_ctx *ctx, const qn_num *args, size_t n, const qn_placement *placement, qn_half_form **halves, size_t *count);
   /* The support function of the solid in local coordinates (a placed one where it was placed): at least max of v . x over the exact solid, and
-     over it by a few roundings at most, relative to the size of the terms (docs/bounds.md, QN_SUPPORT_SLACK); infinite where unbounded
-     (of a half-space finite along its normal when both lie along one axis; of a quadric finite when it is an ellipsoid for certain).
+     over it by a few roundings at most, relative to the size of the terms (docs/bounds.md, QN_SUPPORT_SLACK); infinite where
+     unbounded
+     (of a half-space finite along its normal when both lie along one axis; of a quadric finite when it is an ellipsoid for
+     certain).
      args as doubles rounded to nearest; placement likewise (base, axis) or null. Numbers that are not 0 should lie within 2^-300
      and 2^300, so that no product underflows. Cost: a few dozen flops. */
   double (*support)(const double *args, size_t n, const double placement[6], const double v[3]);
@@ -76,18 +82,24 @@ extern const qn_prim_row qn_prims[QN_PRIM_COUNT];
 qn_form_result qn_quadric_diagonal(qn_ctx *ctx, const qn_num q[10], qn_half_form *out);
 
 /* A superquadric's inside-outside value minus 1 at a point of its own frame (X_i as the rows give), with a bound of its
-   error: the true value lies within *error of the result, also when X, e and n are each the doubles nearest to the exact ones. e, n >= 0; the
-   limits at 0 are maxima: f = max(rho, |z|) at n = 0, where rho = max(|x|, |y|) at e = 0. Infinite with error 0: beyond the range for certain. */
+   error: the true value lies within *error of the result, also when X, e and n are each the doubles nearest to the exact ones. e,
+   n >= 0; the
+   limits at 0 are maxima: f = max(rho, |z|) at n = 0, where rho = max(|x|, |y|) at e = 0. Infinite with error 0: beyond the range
+   for certain. */
 double qn_superquadric_value(double e, double n, const double X[3], double *error);
-/* Its direction of growth (the gradient up to a positive factor, outward), with limits where an exponent makes it discontinuous: on an edge the mean of
+/* Its direction of growth (the gradient up to a positive factor, outward), with limits where an exponent makes it discontinuous:
+   on an edge the mean of
    both sides. Finite. */
 void qn_superquadric_gradient(double e, double n, const double X[3], double g[3]);
-/* The sign of value - 1 at a point with exact coordinates, in MPFR at growing precision to QN_S2_PRECISION bits; 0 when still undecided. */
+/* The sign of value - 1 at a point with exact coordinates, in MPFR at growing precision to QN_S2_PRECISION bits; 0 when still
+   undecided. */
 int qn_superquadric_sign(qn_ctx *ctx, qn_num e, qn_num n, const qn_num X[3]);
 /* Roots of the superquadric along X(t) = O + t D: disjoint enclosures [lo, hi] in increasing order into roots[] (at most
    max), isolated by interval arithmetic with bisection and refined by safeguarded Newton to the last bits; a pair closer than
-   2^-40 of the solid's size may be missed (S10). The value is positive before the first and changes sign at each: at both ends of an
-   enclosure the sign is certain for the line with these O and D. Returns the count. Cost: 3 to 5 us; near a tangent up to a few ms. */
+   2^-40 of the solid's size may be missed (S10). The value is positive before the first and changes sign at each: at both ends of
+   an
+   enclosure the sign is certain for the line with these O and D. Returns the count. Cost: 3 to 5 us; near a tangent up to a few
+   ms. */
 size_t qn_superquadric_roots(double e, double n, const double O[3], const double D[3], double (*roots)[2], size_t max);
 
 #endif

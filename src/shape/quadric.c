@@ -1,14 +1,17 @@
-/* The general quadric, brought to the diagonal form by Lagrange's reduction: a rational congruence with the square completed, exact.
+/* The general quadric, brought to the diagonal form by Lagrange's reduction: a rational congruence with the square completed,
+   exact.
 
    Legend: q = sum m_ij y_i y_j + 2 sum g_i y_i + j over the variables that are left; each y_i is a linear form in x, y, z (row i of
    `form`), at first x, y, z themselves.
 
    A variable with m_ii not 0:  m_ii (y_i + (sum_k m_ik y_k + g_i) / m_ii)^2 takes y_i out, and leaves
        m_kl - m_ik m_il / m_ii,   g_k - m_ik g_i / m_ii,   j - g_i^2 / m_ii.
-   The diagonal all small against some m_ab: y_a = s + t, y_b = s - t, s = (y_a + y_b)/2, t = (y_a - y_b)/2, gives m_ss = m_aa + m_bb + 2 m_ab and
+   The diagonal all small against some m_ab: y_a = s + t, y_b = s - t, s = (y_a + y_b)/2, t = (y_a - y_b)/2, gives m_ss = m_aa +
+   m_bb + 2 m_ab and
    m_tt = m_aa + m_bb - 2 m_ab, one of which is at least 2 |m_ab| - |m_aa + m_bb|. Small means below 16/25 of |m_ab| (about
    (1 + sqrt 17)/8, Bunch and Parlett's choice), so that the reduction is tame in the doubles made of it, too.
-   When no quadratic part is left, the rest is 2 g.y + j: with g not 0 it is 2 l X2, l = 1, X2 = g.y + j/2; row 2 is free then, since
+   When no quadratic part is left, the rest is 2 g.y + j: with g not 0 it is 2 l X2, l = 1, X2 = g.y + j/2; row 2 is free then,
+   since
    at most two squares were made. Without squares it is the plane 2 g.y + j itself. */
 #include "shape/exact.h"
 #include "shape/rows.h"

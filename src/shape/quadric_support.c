@@ -1,9 +1,11 @@
 /* The support of a general quadric, finite when it is an ellipsoid for certain, in intervals.
 
-   q = x'M x + 2 g.x + j (g half the linear coefficients). M = L D L' without pivoting; the solid is an ellipsoid (or empty) when all d_i > 0. With
+   q = x'M x + 2 g.x + j (g half the linear coefficients). M = L D L' without pivoting; the solid is an ellipsoid (or empty) when
+   all d_i > 0. With
    L z = -g and L w = v:  the centre has v.c = sum w_i z_i / d_i, the least value is j - sum z_i^2 / d_i, and the support
        v.c + sqrt(rho sum w_i^2 / d_i),    rho = sum z_i^2 / d_i - j.
-   Each coefficient is taken as the interval that its rounding leaves; the result is the upper end. An ill-conditioned M gives a d_i that
+   Each coefficient is taken as the interval that its rounding leaves; the result is the upper end. An ill-conditioned M gives a
+   d_i that
    is not positive for certain, and so no bound. */
 #include "shape/interval.h"
 #include "shape/outward.h"

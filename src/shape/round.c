@@ -1,6 +1,7 @@
 /* Frames by base and axis.
 
-   Legend: w the axis, b the base; u2 = (-w_y, w_x, 0), u1 = u2 x w = (w_x w_z, w_y w_z, -(w_x^2 + w_y^2)); when w is along z, u2 = y and
+   Legend: w the axis, b the base; u2 = (-w_y, w_x, 0), u1 = u2 x w = (w_x w_z, w_y w_z, -(w_x^2 + w_y^2)); when w is along z, u2
+   = y and
    u1 = x or -x. So x goes where rotate([0, acos(w_z/|w|), atan2(w_y, w_x)]) takes it, and the axis +z is the identity.
 
    u1, u2, w are orthogonal and right-handed, rational when w is, and not of unit length: with X0 = u1.(p - b), X1 = u2.(p - b),
@@ -8,7 +9,8 @@
    X2 = |w| Z = p W + q |w|. Then
        |u1|^2 (a x^2 + b y^2 + c Z^2 + 2 l Z + k)
          = a X0^2 + b |w|^2 X1^2 + c |u2|^2 X2^2 + 2 l |u2|^2 |w| X2 + k |u1|^2,
-   whose coefficients need the irrational |w| only where q or l is not zero. An axis along a coordinate axis is made a unit vector first. */
+   whose coefficients need the irrational |w| only where q or l is not zero. An axis along a coordinate axis is made a unit vector
+   first. */
 #include "shape/round.h"
 #include "shape/outward.h"
 

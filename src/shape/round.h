@@ -37,7 +37,8 @@ double qn_frame_base(const double placement[6], const double v[3], double *magni
    size: at least the length of any point of it. */
 double qn_frame_two_discs(const double placement[6], const double v[3], double z1, double a1, double b1, double z2, double a2, double b2,
                           double size);
-/* The slack of a support in a frame: QN_SUPPORT_SLACK(12) unplaced, of the terms; placed QN_SUPPORT_SLACK(64), of |v| size + |v . base| terms. */
+/* The slack of a support in a frame: QN_SUPPORT_SLACK(12) unplaced, of the terms; placed QN_SUPPORT_SLACK(64), of |v| size + |v .
+   base| terms. */
 double qn_frame_outward(const double placement[6], const double v[3], double sum, double magnitude, double size);
 
 #endif

@@ -1,4 +1,5 @@
-/* Saddle: z <= x^2/a^2 - y^2/b^2, times a^2 b^2:  -b^2 x^2 + a^2 y^2 + a^2 b^2 z <= 0. Unbounded: no support; (u, v) are x/a and y/b. */
+/* Saddle: z <= x^2/a^2 - y^2/b^2, times a^2 b^2:  -b^2 x^2 + a^2 y^2 + a^2 b^2 z <= 0. Unbounded: no support; (u, v) are x/a and
+   y/b. */
 #include "shape/exact.h"
 #include "shape/rows.h"
 

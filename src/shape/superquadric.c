@@ -10,7 +10,8 @@
           1,2 X^2 + Y^2 <= (1 - Z)^2 and (1 + Z)^2, and |Z| <= 1, which cuts the second nappes off.
    Other exponents: one body that is not algebraic (S10).
 
-   Support: for e, n <= 2 the norms are convex and the support is the dual norm, |(|(a v_x, b v_y)|_p', c v_z)|_q' with 1/p + 1/p' = 1, which is
+   Support: for e, n <= 2 the norms are convex and the support is the dual norm, |(|(a v_x, b v_y)|_p', c v_z)|_q' with 1/p + 1/p'
+   = 1, which is
    the norm for e' = 2 - e, n' = 2 - n. Larger exponents have the hull of exponent 2 (the points on the axes). */
 #include "shape/exact.h"
 #include "shape/outward.h"

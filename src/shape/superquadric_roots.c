@@ -1,16 +1,21 @@
 /* Roots of a superquadric along X(t) = O + t D, isolated with certainty and refined (design S10).
 
-   The function is G(X(t)) - 1 (super.h), which has the sign of the inside-outside function less 1. A sign is taken in doubles with its
+   The function is G(X(t)) - 1 (super.h), which has the sign of the inside-outside function less 1. A sign is taken in doubles
+   with its
    bound, and in MPFR with QN_SUPER_BITS bits where the bound leaves it open.
 
    1. Clip. The solid lies in the box |X_i| <= 1: outside the box's stretch [a, b] of the line, widened a little, G > 1.
    2. e, n <= 2: G is a norm, so convex along the line: none or two roots. The minimum is bracketed by the sign of the slope until a
       point inside is found, or the tangent's lower bound is positive, or the bracket is narrow.
-   3. Else: the places where the line meets a coordinate plane divide it into pieces on each of which |X_i| is linear. A piece [c, d] is
-      settled when G over the corners of its box (G grows with each |X_i|) is above 1 or below it, or when its slope is of one sign; else it is
-      halved, down to QN_SUPER_NARROW of the solid's size. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X| + phi_p(X/Y) d|Y|) + phi_q(rho/Z) d|Z|, each phi monotone.
+   3. Else: the places where the line meets a coordinate plane divide it into pieces on each of which |X_i| is linear. A piece [c,
+   d] is
+      settled when G over the corners of its box (G grows with each |X_i|) is above 1 or below it, or when its slope is of one
+      sign; else it is
+      halved, down to QN_SUPER_NARROW of the solid's size. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X| + phi_p(X/Y) d|Y|) +
+      phi_q(rho/Z) d|Z|, each phi monotone.
    What comes out is a list of places with certain signs in increasing order; two neighbours of different signs bracket a root.
-   4. Refinement: Newton from one end, kept in the bracket, halving it when a step does not; then the bracket is closed from both sides to the
+   4. Refinement: Newton from one end, kept in the bracket, halving it when a step does not; then the bracket is closed from both
+   sides to the
       nearest places with certain signs. */
 #include "shape/interval.h"
 #include "shape/outward.h"
@@ -190,8 +195,10 @@ static void refine(curve *c, double *lo, double *hi, int sign_lo) {
 
 /* A place inside, when there is one that is not hidden in a narrow bracket, and places outside to its left and right.
 
-   At a point with G > 1 + error a computed slope is the slope at a point a few u away, so the tangent bounds G from below within less than the error:
-   G > 1 on the side to which it rises, and on the other side too when it does not sink to 1 before the bracket's end. Where the value is
+   At a point with G > 1 + error a computed slope is the slope at a point a few u away, so the tangent bounds G from below within
+   less than the error:
+   G > 1 on the side to which it rises, and on the other side too when it does not sink to 1 before the bracket's end. Where the
+   value is
    open, value and slope are MPFR's. */
 static int find_inside(curve *c, double a, double b, double *inside, double *left, double *right) {
   double least = QN_SUPER_NARROW * c->size;

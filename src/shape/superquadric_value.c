@@ -1,6 +1,7 @@
 /* The superquadric's inside-outside function, its gradient and its sign. See super.h for the letters.
 
-   One step, N(a, b) = (a^p + b^p)^(1/p) for a >= b >= 0: t = b/a, w = t^p, N = a (1 + w)^(e/2); nothing overflows that N does not. Its
+   One step, N(a, b) = (a^p + b^p)^(1/p) for a >= b >= 0: t = b/a, w = t^p, N = a (1 + w)^(e/2); nothing overflows that N does
+   not. Its
    derivatives cost nothing more: dN/da = N / (a (1 + w)), dN/db = (w/t) dN/da. */
 #include "shape/super.h"
 #include "shape/outward.h"

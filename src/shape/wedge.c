@@ -1,6 +1,7 @@
 /* The wedge: the half x/sx + z/sz <= 1 of the box [0, size], or of the box about the origin.
 
-   Five planes: face 0 is x = lo, face 1 the slanted one (it stands for the box's +x), 2 and 3 are -y and +y, 4 is z = lo. The slanted
+   Five planes: face 0 is x = lo, face 1 the slanted one (it stands for the box's +x), 2 and 3 are -y and +y, 4 is z = lo. The
+   slanted
    one is sz x + sx z <= sx sz, or <= 0 when centred: the middle of the box lies on it.
    Support: that of y plus the greatest over the triangle's three corners. */
 #include "shape/exact.h"

@@ -281,8 +281,8 @@ static void junk(qn_lexer *lx) {
   }
   lx->token.kind = QN_T_BAD;
   if (size > 1) {
-    const char *way_out = memcmp(text + start, "\xE2\x80\x9C", 3) == 0 || memcmp(text + start, "\xE2\x80\x9D", 3) == 0
-                            ? "use plain quotes \"" : "such characters may stand in strings and comments";
+    int quote = size == 3 && (memcmp(text + start, "\xE2\x80\x9C", 3) == 0 || memcmp(text + start, "\xE2\x80\x9D", 3) == 0);
+    const char *way_out = quote ? "use plain quotes \"" : "such characters may stand in strings and comments";
     qn_tell(lx->reporter, QN_Q0102, start, lx->at - start, "names and operators are ASCII", way_out, "unexpected character '%.*s'",
             (int)size, text + start);
   } else if (first >= 0x80) {

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-void qn_first_sse2(const struct quoin_scene *, const qn_packet *, qn_packet_hits *, qn_wide_counts *);
+void qn_first_sse2(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);
 #if defined(__x86_64__)
-void qn_first_avx2(const struct quoin_scene *, const qn_packet *, qn_packet_hits *, qn_wide_counts *);
-void qn_first_avx512(const struct quoin_scene *, const qn_packet *, qn_packet_hits *, qn_wide_counts *);
+void qn_first_avx2(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);
+void qn_first_avx512(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);
 #endif
 
 /* From the widest to the one that always runs. */

@@ -16,6 +16,13 @@ typedef struct qn_packet {
   _Alignas(64) double o[3][QN_LANES], d[3][QN_LANES]; /* d finite, not the zero vector */
   _Alignas(64) double from[QN_LANES], to[QN_LANES];
   uint64_t live; /* lanes in use; the others' numbers are finite all the same */
+  /* What the body derives from the rays. Whoever fills a packet says what is new: a tile that keeps its origins or its
+     directions keeps what follows from them. */
+  int new_origins, new_directions;
+  _Alignas(64) double idd[QN_LANES], inv[3][QN_LANES]; /* 1 / (d . d); 1 / d_i, or 0 where d_i = 0 */
+  _Alignas(64) float omin[3][8], omax[3][8], imin[3][8], imax[3][8]; /* of each eight lanes, rounded outward; i: of inv, widened */
+  double low[3], high[3], dabs[3], dd_min, dd_max; /* of all lanes: origins, |d_i|, d . d */
+  int axis[3];
 } qn_packet;
 
 /* What became of each lane. A lane is in at most one of `found` and `unsure`. */
@@ -30,7 +37,7 @@ typedef struct qn_packet_hits {
 typedef struct qn_wide_counts { uint64_t nodes, leaves, packets; } qn_wide_counts;
 
 /* The first boundary at or after `from` and not after `to`. */
-typedef void (*qn_first_fn)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
+typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 
 typedef struct qn_wide { const char *name; qn_first_fn first; } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */

@@ -20,8 +20,6 @@ typedef struct walk {
   const qn_normal *normal;
   uint64_t unsure;
   qn_wide_counts counts;
-  int axis[3];
-  _Alignas(32) float omin[3][SUBS], omax[3][SUBS], imin[3][SUBS], imax[3][SUBS]; /* of each sub-packet, rounded outward */
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
   _Alignas(64) double tolerance[QN_LANES]; /* the sum of any two errors of this lane so far */
 } walk;
@@ -97,7 +95,7 @@ QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, 
     bmin[i] = fload(n->min[i]), bmax[i] = fload(n->max[i]);
     omin[i] = fset(w->all_omin[i]), omax[i] = fset(w->all_omax[i]), imin[i] = fset(w->all_imin[i]), imax[i] = fset(w->all_imax[i]);
   }
-  unsigned meets = slabs(w->axis, bmin, bmax, omin, omax, imin, imax, fset(start), fset(end), &when);
+  unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(start), fset(end), &when);
   fstore(near, when);
   return meets;
 }
@@ -107,9 +105,9 @@ QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
   vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
   for (int i = 0; i < 3; i++) {
     bmin[i] = fset(t->min[i]), bmax[i] = fset(t->max[i]);
-    omin[i] = fload(w->omin[i]), omax[i] = fload(w->omax[i]), imin[i] = fload(w->imin[i]), imax[i] = fload(w->imax[i]);
+    omin[i] = fload(w->f.p->omin[i]), omax[i] = fload(w->f.p->omax[i]), imin[i] = fload(w->f.p->imin[i]), imax[i] = fload(w->f.p->imax[i]);
   }
-  unsigned meets = slabs(w->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when);
+  unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when);
   uint64_t mask = 0;
   for (int s = 0; s < SUBS; s++) {
     mask |= (uint64_t)(meets >> s & 1 ? 0xff : 0) << (8 * s);
@@ -181,11 +179,11 @@ static QN_NOINLINE stretch meet_solve(const walk *w, uint32_t leaf, int g) {
         body_constants k;
         double reach = 0;
         for (int r = 0; r < 3; r++) {
-          double most = fabs(q->row[r][3]);
+          double size = fabs(q->row[r][3]);
           for (int j = 0; j < 3; j++) {
-            most += fabs(q->row[r][j]) * fmax(fabs(l->min[j] - l->pivot[j]), fabs(l->max[j] - l->pivot[j]));
+            size += fabs(q->row[r][j]) * most(fabs(l->min[j] - l->pivot[j]), fabs(l->max[j] - l->pivot[j]));
           }
-          reach += most * most;
+          reach += size * size;
         }
         body_prepare(&w->f, l->pivot, q->row, q->s, q->l, q->k, sqrt(reach), half->surface, leaf, &k);
         body_meet(&w->f, &k, y, d, &s);
@@ -435,18 +433,18 @@ static uint64_t term_leave(walk *w, const qn_nterm *t, lanes *at, uint64_t mask)
 
 /* The largest place still of interest, as a float bound. */
 static float latest(const lanes *best, uint64_t mask) {
-  double most = -INFINITY;
+  double last = -INFINITY;
   for (uint64_t m = mask; m; m &= m - 1) {
-    most = fmax(most, best->t[qn_trailing_zeros(m)]);
+    last = most(last, best->t[qn_trailing_zeros(m)]);
   }
-  return most > 0 ? up(most * (1 + 0x1p-20)) : up(most * (1 - 0x1p-20));
+  return last > 0 ? up(last * (1 + 0x1p-20)) : up(last * (1 - 0x1p-20));
 }
 static float earliest(const lanes *from, uint64_t mask) {
-  double least = INFINITY;
+  double first = INFINITY;
   for (uint64_t m = mask; m; m &= m - 1) {
-    least = fmin(least, from->t[qn_trailing_zeros(m)]);
+    first = least(first, from->t[qn_trailing_zeros(m)]);
   }
-  return least < 0 ? down(least * (1 + 0x1p-20)) : down(least * (1 - 0x1p-20));
+  return first < 0 ? down(first * (1 + 0x1p-20)) : down(first * (1 - 0x1p-20));
 }
 
 static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
@@ -511,18 +509,18 @@ static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
       for (uint64_t m = mask >> (k * SUB_LANES) & 0xff; m; m &= m - 1) {
         unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
         double step = at->t[j] * p->d[i][j], x = p->o[i][j] + step;
-        size = fmax(size, fabs(step) + w->tolerance[j] * fabs(p->d[i][j]));
-        lo = fmin(lo, x), hi = fmax(hi, x);
+        size = most(size, fabs(step) + w->tolerance[j] * fabs(p->d[i][j]));
+        lo = least(lo, x), hi = most(hi, x);
       }
-      double slack = (size + fmax(fabs(lo), fabs(hi))) * 0x1p-40 + w->f.reach * 0;
+      double slack = (size + most(fabs(lo), fabs(hi))) * 0x1p-40;
       for (uint64_t m = mask >> (k * SUB_LANES) & 0xff; m; m &= m - 1) {
         unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
-        slack = fmax(slack, w->tolerance[j] * fabs(p->d[i][j]) * 2);
+        slack = most(slack, w->tolerance[j] * fabs(p->d[i][j]) * 2);
       }
       int used = (mask >> (k * SUB_LANES) & 0xff) != 0;
       s->min[i][k] = used ? down(lo - slack) : INFINITY;
       s->max[i][k] = used ? up(hi + slack) : -INFINITY;
-      s->all_min[i] = fminf(s->all_min[i], s->min[i][k]), s->all_max[i] = fmaxf(s->all_max[i], s->max[i][k]);
+      s->all_min[i] = (s->min[i][k] < s->all_min[i] ? s->min[i][k] : s->all_min[i]), s->all_max[i] = (s->max[i][k] > s->all_max[i] ? s->max[i][k] : s->all_max[i]);
     }
   }
 }
@@ -586,61 +584,101 @@ static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
 
 /* --- a packet ------------------------------------------------------------------------------------------------------ */
 
-static void facts(walk *w, const qn_packet *p) {
-  packet_facts *f = &w->f;
-  f->p = p;
-  const qn_normal *normal = w->normal;
-  (void)normal;
-  double reach2 = 0;
-  for (int i = 0; i < 3; i++) {
-    double lo = INFINITY, hi = -INFINITY, dlo = INFINITY, dhi = -INFINITY;
-    for (int k = 0; k < SUBS; k++) {
-      double slo = INFINITY, shi = -INFINITY, ilo = INFINITY, ihi = -INFINITY;
-      for (int j = k * SUB_LANES; j < (k + 1) * SUB_LANES; j++) {
-        double o = p->o[i][j], d = p->d[i][j], inv = d != 0 ? 1 / d : 0;
-        f->inv[i][j] = inv;
-        slo = fmin(slo, o), shi = fmax(shi, o);
-        dlo = fmin(dlo, d), dhi = fmax(dhi, d);
-        ilo = fmin(ilo, inv), ihi = fmax(ihi, inv);
-      }
-      w->omin[i][k] = down(slo), w->omax[i][k] = up(shi);
-      /* Widened away from the true range in either direction, so that the products' rounding cannot matter. */
-      w->imin[i][k] = down(ilo - fabs(ilo) * 0x1p-20), w->imax[i][k] = up(ihi + fabs(ihi) * 0x1p-20);
-      lo = fmin(lo, slo), hi = fmax(hi, shi);
-    }
-    w->axis[i] = dlo > 0 ? AXIS_UP : dhi < 0 ? AXIS_DOWN : dlo == 0 && dhi == 0 ? AXIS_FLAT : AXIS_MIXED;
-    w->all_omin[i] = INFINITY, w->all_omax[i] = -INFINITY, w->all_imin[i] = INFINITY, w->all_imax[i] = -INFINITY;
-    for (int k = 0; k < SUBS; k++) {
-      w->all_omin[i] = fminf(w->all_omin[i], w->omin[i][k]), w->all_omax[i] = fmaxf(w->all_omax[i], w->omax[i][k]);
-      w->all_imin[i] = fminf(w->all_imin[i], w->imin[i][k]), w->all_imax[i] = fmaxf(w->all_imax[i], w->imax[i][k]);
-    }
-    if (!isfinite(w->all_imin[i]) || !isfinite(w->all_imax[i])) {
-      w->axis[i] = AXIS_MIXED;
-    }
-    f->omin[i] = lo, f->omax[i] = hi;
-    f->dabs[i] = fmax(fabs(dlo), fabs(dhi));
-    double far = fmax(fabs(lo), fabs(hi)) + fmax(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
-    reach2 += far * far;
+/* The least and largest of eight neighbouring lanes. */
+QN_INLINE void extremes(const double *v, double *low, double *high) {
+  vd a = vload(v), b = a;
+  for (int i = QN_W; i < SUB_LANES; i += QN_W) {
+    vd x = vload(v + i);
+    a = vmin(a, x), b = vmax(b, x);
   }
-  f->dd_min = INFINITY, f->dd_max = 0;
-  for (int j = 0; j < QN_LANES; j++) {
-    double dd = p->d[0][j] * p->d[0][j] + p->d[1][j] * p->d[1][j] + p->d[2][j] * p->d[2][j];
-    f->idd[j] = 1 / dd;
-    f->dd_min = fmin(f->dd_min, dd), f->dd_max = fmax(f->dd_max, dd);
+  _Alignas(64) double x[QN_W], y[QN_W];
+  vstore(x, a), vstore(y, b);
+  *low = x[0], *high = y[0];
+  for (int i = 1; i < QN_W; i++) {
+    *low = least(*low, x[i]), *high = most(*high, y[i]);
   }
-  f->reach = 1.001 * sqrt(reach2 / f->dd_min);
 }
 
-void QN_FIRST(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
-void QN_FIRST(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
-  walk w = {.scene = scene, .normal = &scene->normal};
+static void see_origins(qn_packet *p) {
+  for (int i = 0; i < 3; i++) {
+    p->low[i] = INFINITY, p->high[i] = -INFINITY;
+    for (int k = 0; k < SUBS; k++) {
+      double low, high;
+      extremes(p->o[i] + k * SUB_LANES, &low, &high);
+      p->omin[i][k] = down(low), p->omax[i][k] = up(high);
+      p->low[i] = least(p->low[i], low), p->high[i] = most(p->high[i], high);
+    }
+  }
+}
+
+static void see_directions(qn_packet *p) {
+  const vd zero = vset(0), one = vset(1);
+  for (int g = 0; g < QN_LANES; g += QN_W) {
+    vd dd = zero;
+    for (int i = 0; i < 3; i++) {
+      vd d = vload(p->d[i] + g);
+      vm none = vandnot(vmask(QN_ALL_BITS), vor(vlt(d, zero), vlt(zero, d)));
+      vstore(p->inv[i] + g, vpick(none, zero, vdiv(one, vpick(none, one, d))));
+      dd = vfma(d, d, dd);
+    }
+    vstore(p->idd + g, vdiv(one, dd));
+  }
+  double low, high;
+  p->dd_min = INFINITY, p->dd_max = 0;
+  for (int k = 0; k < SUBS; k++) {
+    extremes(p->idd + k * SUB_LANES, &low, &high);
+    p->dd_min = least(p->dd_min, (1 - 0x1p-40) / high), p->dd_max = most(p->dd_max, (1 + 0x1p-40) / low);
+  }
+  for (int i = 0; i < 3; i++) {
+    double dlow = INFINITY, dhigh = -INFINITY;
+    int finite = 1;
+    for (int k = 0; k < SUBS; k++) {
+      extremes(p->d[i] + k * SUB_LANES, &low, &high);
+      dlow = least(dlow, low), dhigh = most(dhigh, high);
+      extremes(p->inv[i] + k * SUB_LANES, &low, &high);
+      /* Widened away from the true range in either direction, so that the products' rounding cannot matter. */
+      p->imin[i][k] = down(low - fabs(low) * 0x1p-20), p->imax[i][k] = up(high + fabs(high) * 0x1p-20);
+      finite &= isfinite(p->imin[i][k]) && isfinite(p->imax[i][k]);
+    }
+    p->dabs[i] = most(fabs(dlow), fabs(dhigh));
+    p->axis[i] = !finite ? AXIS_MIXED : dlow > 0 ? AXIS_UP : dhigh < 0 ? AXIS_DOWN : dlow == 0 && dhigh == 0 ? AXIS_FLAT : AXIS_MIXED;
+  }
+}
+
+static void facts(walk *w, qn_packet *p) {
+  packet_facts *f = &w->f;
+  f->p = p;
+  if (p->new_origins) {
+    see_origins(p);
+  }
+  if (p->new_directions) {
+    see_directions(p);
+  }
+  double reach2 = 0;
+  for (int i = 0; i < 3; i++) {
+    w->all_omin[i] = INFINITY, w->all_omax[i] = -INFINITY, w->all_imin[i] = INFINITY, w->all_imax[i] = -INFINITY;
+    for (int k = 0; k < SUBS; k++) {
+      w->all_omin[i] = p->omin[i][k] < w->all_omin[i] ? p->omin[i][k] : w->all_omin[i], w->all_omax[i] = p->omax[i][k] > w->all_omax[i] ? p->omax[i][k] : w->all_omax[i];
+      w->all_imin[i] = p->imin[i][k] < w->all_imin[i] ? p->imin[i][k] : w->all_imin[i], w->all_imax[i] = p->imax[i][k] > w->all_imax[i] ? p->imax[i][k] : w->all_imax[i];
+    }
+    double far = farthest(f, i, 0) + most(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
+    reach2 += far * far;
+  }
+  f->reach = 1.001 * sqrt(reach2 / p->dd_min);
+}
+
+void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
+void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
+  walk w;
+  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
   facts(&w, packet);
   lanes start, best;
   const double nobody = payload_bits(QN_NOBODY);
-  for (int j = 0; j < QN_LANES; j++) {
-    w.tolerance[j] = 0;
-    start.t[j] = fmax(packet->from[j], -QN_FAR), start.p[j] = nobody;
-    best.t[j] = fmin(packet->to[j], QN_FAR), best.p[j] = nobody;
+  const vd none = vset(nobody);
+  for (int j = 0; j < QN_LANES; j += QN_W) {
+    vstore(w.tolerance + j, vset(0));
+    vstore(start.t + j, vmax(vload(packet->from + j), vset(-QN_FAR))), vstore(start.p + j, none);
+    vstore(best.t + j, vmin(vload(packet->to + j), vset(QN_FAR))), vstore(best.p + j, none);
   }
   uint64_t mask = packet->live, leaving = 0;
   uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);

@@ -34,14 +34,13 @@ QN_INLINE uint64_t payload_of(uint32_t surface, uint32_t leaf, uint64_t larger) 
 /* What is known of a packet before any piece is met. */
 typedef struct packet_facts {
   const qn_packet *p;
-  double omin[3], omax[3]; /* of the live lanes */
-  double dabs[3];          /* largest |d_i| */
-  double dd_min, dd_max;   /* of d . d */
-  double reach;            /* no |t| of interest is larger; infinite in unbounded scenes */
-  int one_direction;       /* all lanes share d */
-  _Alignas(64) double idd[QN_LANES]; /* 1 / (d . d) */
-  _Alignas(64) double inv[3][QN_LANES]; /* 1 / d_i, 0 where d_i = 0 */
+  double reach; /* no |t| of interest is larger; infinite in unbounded scenes */
 } packet_facts;
+
+QN_INLINE double least(double a, double b) { return b < a ? b : a; }
+QN_INLINE double most(double a, double b) { return b > a ? b : a; }
+/* The largest |o_i - pivot_i| of a packet. */
+QN_INLINE double farthest(const packet_facts *f, int i, double pivot) { return most(fabs(f->p->low[i] - pivot), fabs(f->p->high[i] - pivot)); }
 
 /* A stretch of QN_W rays in a piece. Lanes not in `hit` and not in `unsure` surely miss. */
 typedef struct stretch { vd a, b, pa, pb, error; vm hit, unsure; } stretch;
@@ -54,20 +53,20 @@ typedef struct sphere_constants { vd cx, cy, cz, r2, ed_low, ed_high, error, pa,
 QN_INLINE void sphere_prepare(const packet_facts *f, const qn_piece_sphere *s, sphere_constants *k) {
   double Y = 0, H = 0;
   for (int i = 0; i < 3; i++) {
-    double y = fmax(fabs(f->omin[i] - s->centre[i]), fabs(f->omax[i] - s->centre[i]));
+    double y = farthest(f, i, s->centre[i]);
     Y += y;
-    H += y * f->dabs[i];
+    H += y * f->p->dabs[i];
   }
-  double r = sqrt(s->r2), d = sqrt(f->dd_max);
+  double r = sqrt(s->r2), d = sqrt(f->p->dd_max);
   /* m = y - (y.d / d.d) d: each coordinate within delta; lanes with |m| > 2r are sure misses while delta < r/8. */
-  double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d / f->dd_min) + s->off);
+  double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d / f->p->dd_min) + s->off);
   double ed = delta < r / 8 ? 8 * r * delta + 3 * delta * delta + QN_WIDE_ROUND * QN_U * 5 * s->r2 : INFINITY;
-  double least = QN_WIDE_SHY * ed;
-  double s_error = ed / sqrt(least * f->dd_max); /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > least; ed/(2 sqrt least), doubled */
+  double solved = QN_WIDE_SHY * ed;
+  double s_error = ed / sqrt(solved * f->p->dd_max); /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > solved; ed/(2 sqrt solved), doubled */
   k->cx = vset(s->centre[0]), k->cy = vset(s->centre[1]), k->cz = vset(s->centre[2]);
   k->r2 = vset(s->r2);
-  k->ed_low = vset(-ed), k->ed_high = vset(least);
-  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) / f->dd_min + 2 * s_error * sqrt(f->dd_max / f->dd_min));
+  k->ed_low = vset(-ed), k->ed_high = vset(solved);
+  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) / f->p->dd_min + 2 * s_error * sqrt(f->p->dd_max / f->p->dd_min));
   k->pa = vset(payload_bits(payload_of(s->surface, s->head.leaf, 0)));
   k->pb = vset(payload_bits(payload_of(s->surface, s->head.leaf, QN_LARGER_ROOT)));
 }
@@ -75,7 +74,7 @@ QN_INLINE void sphere_prepare(const packet_facts *f, const qn_piece_sphere *s, s
 QN_INLINE stretch sphere_solve(const packet_facts *f, const sphere_constants *k, int g) {
   const qn_packet *p = f->p;
   int at = g * QN_W;
-  vd dx = vload(p->d[0] + at), dy = vload(p->d[1] + at), dz = vload(p->d[2] + at), idd = vload(f->idd + at);
+  vd dx = vload(p->d[0] + at), dy = vload(p->d[1] + at), dz = vload(p->d[2] + at), idd = vload(p->idd + at);
   vd x = vsub(vload(p->o[0] + at), k->cx), y = vsub(vload(p->o[1] + at), k->cy), z = vsub(vload(p->o[2] + at), k->cz);
   vd middle = vmul(vfma(x, dx, vfma(y, dy, vmul(z, dz))), idd); /* -t of the nearest place */
   x = vsub(x, vmul(middle, dx)), y = vsub(y, vmul(middle, dy)), z = vsub(z, vmul(middle, dz));
@@ -95,8 +94,8 @@ typedef struct plane_constants { vd n[3], d, en, eden, steep; vd px; } plane_con
 QN_INLINE void plane_prepare(const packet_facts *f, const double pivot[3], const double n[3], double d, uint32_t surface, uint32_t leaf, plane_constants *k) {
   double en = fabs(d), eden = 0;
   for (int i = 0; i < 3; i++) {
-    en += fabs(n[i]) * fmax(fabs(f->omin[i] - pivot[i]), fabs(f->omax[i] - pivot[i]));
-    eden += fabs(n[i]) * f->dabs[i];
+    en += fabs(n[i]) * farthest(f, i, pivot[i]);
+    eden += fabs(n[i]) * f->p->dabs[i];
     k->n[i] = vset(n[i]);
   }
   k->d = vset(d);
@@ -144,7 +143,7 @@ typedef struct box_constants { vd lo[3], hi[3], en[3], plo[3], phi[3]; } box_con
 
 QN_INLINE void box_prepare(const packet_facts *f, const qn_piece_box *b, box_constants *k) {
   for (int i = 0; i < 3; i++) {
-    double size = fmax(fabs(b->lo[i]), fabs(b->hi[i])) + fmax(fabs(f->omin[i]), fabs(f->omax[i]));
+    double size = most(fabs(b->lo[i]), fabs(b->hi[i])) + farthest(f, i, 0);
     k->lo[i] = vset(b->lo[i]), k->hi[i] = vset(b->hi[i]);
     k->en[i] = vset(QN_WIDE_ROUND * QN_U * size + 2 * b->off);
     k->plo[i] = vset(payload_bits(payload_of(b->surface[2 * i], b->head.leaf, 0)));
@@ -159,7 +158,7 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
   stretch s = {.a = near, .b = far, .pa = nobody, .pb = nobody, .error = zero, .hit = vmask(QN_ALL_BITS), .unsure = vmask(0)};
   vd a[3], b[3], pa[3], pb[3];
   for (int i = 0; i < 3; i++) {
-    vd o = vload(p->o[i] + at), inv = vload(f->inv[i] + at);
+    vd o = vload(p->o[i] + at), inv = vload(p->inv[i] + at);
     vm flat = vandnot(vmask(QN_ALL_BITS), vor(vlt(inv, zero), vlt(zero, inv))), down = vlt(inv, zero);
     vd low = vsub(k->lo[i], o), high = vsub(k->hi[i], o);
     vd t0 = vmul(low, inv), t1 = vmul(high, inv);
@@ -211,8 +210,8 @@ QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const 
     double w = fabs(row[i][3]);
     delta[i] = 0;
     for (int j = 0; j < 3; j++) {
-      w += fabs(row[i][j]) * fmax(fabs(f->omin[j] - pivot[j]), fabs(f->omax[j] - pivot[j]));
-      delta[i] += fabs(row[i][j]) * f->dabs[j];
+      w += fabs(row[i][j]) * farthest(f, j, pivot[j]);
+      delta[i] += fabs(row[i][j]) * f->p->dabs[j];
       k->row[i][j] = vset(row[i][j]);
     }
     k->row[i][3] = vset(row[i][3]);
@@ -233,14 +232,14 @@ QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const 
   double e = c * 8 * (omega + R);
   double ea = c * A, eh = c * H + e * D * S + c * fabs(l) * delta[2], ec = c * C + 2 * S * R * e + S * e * e + 2 * fabs(l) * e;
   double ed = 2 * H * eh + eh * eh + A * ec + C * ea + ea * ec + c * (H * H + A * C);
-  double least = QN_WIDE_SHY * ed;
+  double solved = QN_WIDE_SHY * ed;
   k->sound = isfinite(ed) && ed > 0;
   k->l = vset(l), k->k = vset(k0);
   k->reach2 = vset(R * R);
-  k->ed_low = vset(-ed), k->ed_high = vset(least);
+  k->ed_low = vset(-ed), k->ed_high = vset(solved);
   k->ea = vset(ea);
   k->flat = vset(0x1p-20 * A);
-  k->gap = vset(eh + 2 * ed / sqrt(least) + c * (2 * H + sqrt(A * C)));
+  k->gap = vset(eh + 2 * ed / sqrt(solved) + c * (2 * H + sqrt(A * C)));
   k->slope = vset(0x1p-12 * D * D);
   k->eh_far = vset(eh), k->ec_far = vset(ec);
   k->plow = vset(payload_bits(payload_of(surface, leaf, 0)));

@@ -207,11 +207,13 @@ static void no_specks(void **state) {
   }
 }
 
-/* The eye in the solid sees its wall from inside. A near plane within the solid does the same. */
+/* The eye in the solid sees its wall from inside, lit from its side although the solid is around it. A near plane within the
+   solid does the same. */
 static void inside_walls(void **state) {
   (void)state;
   enum { N = 8 };
-  quoin_scene *scene = compile("background([0, 0, 0]); material(color = [1, 0.5, 0], ambient = 0, diffuse = 1, specular = 0) sphere(20);");
+  quoin_scene *scene = compile("background([0, 0, 0]); light(direction = [0, 1, 0], color = [1, 1, 1]);"
+                               "material(color = [1, 0.5, 0], ambient = 0, diffuse = 1, specular = 0) sphere(20);");
   quoin_render_options o = front(N);
   unsigned char p[N * N * 4];
   for (int near = 0; near < 2; near++) {

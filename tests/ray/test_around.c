@@ -56,7 +56,7 @@ static int list_one(void *user, const int8_t *signs) {
   return 0;
 }
 
-/* The cells at the point x / w. rounded: the forms multiplied by an odd 300-bit number and marked as rounded (S2). */
+/* The cells at the point x / w. rounded: the forms with 256 bits more, off in the last of them, and marked as rounded (S2). */
 static listed cells_at(qn_ctx *ctx, size_t n, const surface *s, const int x[3], int w, int rounded) {
   listed l = {.n = n};
   qn_germ germs[MOST];
@@ -64,7 +64,7 @@ static listed cells_at(qn_ctx *ctx, size_t n, const surface *s, const int x[3], 
   for (size_t i = 0; i < n; i++) {
     qn_exact_surface e = exact(ctx, &s[i]);
     if (rounded) {
-      /* Each coefficient off by less than 2^-250 of itself: the surfaces do not meet exactly any more. */
+      /* Each coefficient off by about 2^-250 of itself: the surfaces do not meet exactly any more. */
       qn_int big = qn_int_shl(ctx, qn_int_from(ctx, 1), 256);
       for (int k = 0; k < 10; k++) {
         e.q[k] = qn_int_add(ctx, qn_int_mul(ctx, e.q[k], big), qn_int_from(ctx, e.q[k].n == 0 ? 0 : (int64_t)(7 * i + 3) * (k - 4)));
@@ -259,10 +259,10 @@ static int below(int n) {
 
 /* The sign of a surface (through the origin) at u = sum of v[k] e^(k+1), e = 2^-24, in units of e^3: integers of 128 bits do. */
 static int sign_along(const surface *s, int v[3][3]) {
-  __extension__ typedef __int128 wide;
+  typedef qn_i128 wide;
   wide u[3], g = 0, h = 0;
   for (int i = 0; i < 3; i++) {
-    u[i] = ((wide)v[0][i] << 48) + ((wide)v[1][i] << 24) + v[2][i]; /* times 2^-72 */
+    u[i] = (wide)v[0][i] * ((wide)1 << 48) + (wide)v[1][i] * ((wide)1 << 24) + v[2][i]; /* times 2^-72 */
     g += s->q[6 + i] * u[i];
   }
   const int *q = s->q;

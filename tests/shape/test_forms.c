@@ -417,6 +417,46 @@ static void irrational_axis(void **state) {
   assert_false(qn_num_is_rounded(waist.halves[0].row[2][3]));
 }
 
+/* Memory refused at any moment: a status in the context, no crash, nothing lost. */
+static void *refusing_alloc(void *user, size_t bytes) {
+  size_t *left = user;
+  return *left > 0 ? (--*left, malloc(bytes)) : NULL;
+}
+static void *refusing_resize(void *user, void *block, size_t old_bytes, size_t bytes) {
+  (void)user, (void)block, (void)old_bytes, (void)bytes;
+  return NULL;
+}
+static void refusing_release(void *user, void *block, size_t bytes) {
+  (void)user, (void)bytes;
+  free(block);
+}
+static void refused_memory(void **state) {
+  (void)state;
+  static const char *const args[] = {"5", "1.234567890123456789123", "0.7", "0.35", "1/3", "1", "0.3", "2/7", "1/11", "-1"};
+  int refused = 0, made = 0;
+  for (qn_prim prim = 0; prim < QN_POLYHEDRON; prim++) {
+    for (size_t allow = 1; allow < 6; allow++) {
+      size_t left = 100;
+      quoin_allocator allocator = {refusing_alloc, refusing_resize, refusing_release, &left, 0};
+      bench local, *b = &local;
+      qn_mem_init(&b->mem, &allocator);
+      qn_ctx_init(&b->ctx, &b->mem);
+      solid s = {.prim = prim, .n = 10};
+      for (int i = 0; i < 10; i++) {
+        s.args[i] = num(b, args[prim == QN_PRISM && i == 2 ? 1 : i]);
+      }
+      qn_placement place = {{s.args[1], s.args[2], s.args[3]}, {s.args[1], s.args[4], s.args[2]}};
+      left = allow - 1;
+      s.result = qn_prims[prim].form(&b->ctx, s.args, s.n, qn_prims[prim].round ? &place : NULL, &s.halves, &s.count);
+      refused += b->ctx.failed == QUOIN_E_MEMORY;
+      made += b->ctx.failed == QUOIN_OK && s.result == QN_FORM_OK;
+      qn_ctx_free(&b->ctx);
+      assert_int_equal(b->mem.used, 0);
+    }
+  }
+  assert_true(refused > 5 && made > 20);
+}
+
 /* The table itself. */
 static void table(void **state) {
   (void)state;
@@ -431,6 +471,7 @@ static void table(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(table),
+    cmocka_unit_test(refused_memory),
     cmocka_unit_test_setup_teardown(known_points_round, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(known_points_planes, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(polyhedron_points, setup_bench, teardown_bench),

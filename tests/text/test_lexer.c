@@ -149,7 +149,7 @@ static void places(void **state) {
 /* Every prefix of a text that has everything: no crash, and no byte is read behind the end. */
 static void prefixes(void **state) {
   (void)state;
-  static const char text[] = "x = 1.5e3; /* c */ name(\"\\u00e9\\x41\xE2\x82\xAC\") // d\n<=&&||!==\xF0\x9F\x98\x80 1e-7 $fn";
+  static const char text[] = "x = 1.5e3; /* c */ name(\"\\u00e9\\x41\xE2\x82\xAC\") // d\n<=&&||!==\xF0\x9F\x98\x80 1e-7 $fn \xE2\x80\x9C \xC2\xA7";
   for (size_t n = 0; n < sizeof text; n++) {
     char *copy = test_malloc(n + 1); /* so that a sanitizer sees a read past the end */
     memcpy(copy, text, n);

@@ -1,0 +1,430 @@
+/* Rays a second through the library, one row for each path, and whether the answers are right.
+
+   A path is first judged: on some blocks its answers must be the same bytes as those of the other paths with the same question, and on some
+   rays the same as the oracle's (exact, by other code). A path that answers wrongly gets no time. */
+#include "flat.h"
+#include "oracle.h"
+#include "paths.h"
+
+#include <inttypes.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char USAGE[] =
+    "usage: bench_scenes MODEL.csg CAMERA [options]\n"
+    "  --paths A,B     only these (tiles rows single intervals intervals-single intervals-exact shadow shadow-single random random-single\n"
+    "                  points points-single); default all\n"
+    "  --size N        the grid is N x N; default the camera file's\n"
+    "  --seconds S     time for each path and round; default 0.3\n"
+    "  --rounds N      rounds, of which the median is given; default 3\n"
+    "  --threads N     default 1\n"
+    "  --build-threads N   for the compilation; default 1, 0 all\n"
+    "  --oracle N      rays judged by the oracle; default 100; 0 none. It reads MODEL.flat beside MODEL.csg\n"
+    "  --csv FILE      appends rows: scene,path,threads,isa,rays,seconds,Mrays_s,judged,wrong,oracle_judged,oracle_wrong,nodes,leaves,sure,\n"
+    "                  exact_signs,exact_orders,exact_rays,exact_roundings (the last seven a ray),read_s,compile_s,leaves_kept,bytes\n"
+    "  --depths FILE   writes the first hits' parameters (doubles, row-major; infinite: none) of the whole grid\n"
+    "  --name NAME     the scene's name in the rows\n";
+
+enum { MOST_STRETCHES = 1024 }; /* of a ray that the oracle judges */
+
+typedef struct options {
+  const char *model, *camera, *csv, *depths, *name, *paths;
+  unsigned size, threads, build_threads, rounds;
+  double seconds;
+  size_t oracle;
+} options;
+
+typedef struct bench {
+  options opt;
+  bench_camera camera;
+  path_job job;
+  flat_scene flat;
+  oracle *oracle;
+  double read_s, compile_s;
+  quoin_scene_info info;
+  size_t judged_blocks; /* of each path */
+} bench;
+
+typedef struct verdict { size_t judged, wrong, oracle_judged, oracle_wrong, oracle_skipped; } verdict;
+
+/* --- the order of blocks: every place alike when a path has no time for all ---------------------------------------------------- */
+
+static size_t *shuffled(size_t n, uint64_t seed) {
+  size_t *order = malloc((n + 1) * sizeof *order);
+  for (size_t i = 0; order && i < n; i++) {
+    size_t j = (size_t)(bench_u64(&seed) % (i + 1));
+    order[i] = order[j];
+    order[j] = i;
+  }
+  return order;
+}
+
+/* --- judging --------------------------------------------------------------------------------------------------------- */
+
+/* Answers of the first path with a question about some rays; others are compared with it. */
+typedef struct reference { path_answer *answers; int there; size_t blocks; } reference;
+
+static int judge(bench *b, const path *p, reference *ref, path_lane *lane, verdict *out) {
+  size_t blocks = path_blocks(p, &b->job), n = blocks < b->judged_blocks ? blocks : b->judged_blocks;
+  size_t *order = shuffled(blocks, 1);
+  path_answer *answers = calloc(n + 1, BLOCK * sizeof *answers);
+  memset(out, 0, sizeof *out);
+  if (!order || !answers) {
+    return 0;
+  }
+  double begin = bench_now();
+  size_t done = 0;
+  for (; done < n && (done == 0 || bench_now() - begin < 3); done++) {
+    lane->answers = answers + done * BLOCK;
+    size_t count = p->block(&b->job, lane, order[done]);
+    for (size_t k = 0; ref->there && done < ref->blocks && k < count; k++) {
+      out->judged++;
+      out->wrong += answers[done * BLOCK + k].hash != ref->answers[done * BLOCK + k].hash;
+    }
+  }
+  lane->answers = NULL;
+  uint64_t state = 2;
+  oracle_interval stretches[MOST_STRETCHES];
+  for (size_t s = 0; b->oracle && blocks && s < b->opt.oracle; s++) {
+    size_t block = bench_u64(&state) % done;
+    size_t count = p->block(&b->job, lane, order[block]), k = bench_u64(&state) % count; /* fills lane->rays again */
+    const path_answer *a = &answers[block * BLOCK + lane->place[k]];
+    if (p->question == ASK_SIDES) {
+      a = &answers[block * BLOCK + k];
+      int side = oracle_point(b->oracle, b->job.lists.points + 3 * (order[block] * BLOCK + k));
+      out->oracle_skipped += side < 0;
+      out->oracle_judged += side >= 0;
+      out->oracle_wrong += side >= 0 && a->places != (uint64_t)side;
+      continue;
+    }
+    int zero; /* the directions of rays with the filter off are multiples of the camera's, their answers scaled back */
+    long found = oracle_ray(b->oracle, lane->rays[k].o, p->rays == RAYS_CAMERA ? b->camera.d : lane->rays[k].d, MOST_STRETCHES, stretches, &zero);
+    if (found < 0 || found > MOST_STRETCHES) {
+      out->oracle_skipped++;
+      continue;
+    }
+    out->oracle_judged++;
+    uint64_t places = PATH_NO_PLACES;
+    if (p->question == ASK_HITS && found) {
+      path_places(&places, zero ? stretches[0].leave : stretches[0].enter);
+    }
+    for (long i = 0; p->question == ASK_INTERVALS && i < found; i++) {
+      path_places(&places, stretches[i].enter);
+      path_places(&places, stretches[i].leave);
+    }
+    int same = a->places == places && a->count == (p->question == ASK_HITS ? found > 0 : (uint32_t)found);
+    out->oracle_wrong += !same;
+  }
+  if (!ref->there) {
+    *ref = (reference){answers, 1, done};
+  } else {
+    free(answers);
+  }
+  free(order);
+  return 1;
+}
+
+/* --- timing ---------------------------------------------------------------------------------------------------------- */
+
+typedef struct run {
+  const bench *b;
+  const path *p;
+  const size_t *order;
+  size_t blocks;
+  double until;
+  atomic_size_t next;
+  atomic_size_t done;
+} run;
+typedef struct runner { run *run; path_lane *lane; } runner;
+
+static void *run_blocks(void *user) {
+  runner *r = user;
+  size_t rays = 0;
+  while (bench_now() < r->run->until) {
+    size_t at = atomic_fetch_add(&r->run->next, 1);
+    rays += r->run->p->block(&r->run->b->job, r->lane, r->run->order[at % r->run->blocks]);
+  }
+  atomic_fetch_add(&r->run->done, rays);
+  return NULL;
+}
+
+/* Rays a second; 0 on failure. */
+static double measure(const bench *b, const path *p, path_lane **lanes, double *rays, double *seconds) {
+  size_t blocks = path_blocks(p, &b->job);
+  size_t *order = shuffled(blocks, 1);
+  if (!order) {
+    return 0;
+  }
+  run shared = {.b = b, .p = p, .order = order, .blocks = blocks};
+  pthread_t threads[256];
+  runner runners[256];
+  double begin = bench_now();
+  shared.until = begin + b->opt.seconds;
+  for (unsigned i = 0; i < b->opt.threads; i++) {
+    runners[i] = (runner){&shared, lanes[i]};
+    if (i && pthread_create(&threads[i], NULL, run_blocks, &runners[i]) != 0) {
+      abort();
+    }
+  }
+  run_blocks(&runners[0]);
+  for (unsigned i = 1; i < b->opt.threads; i++) {
+    pthread_join(threads[i], NULL);
+  }
+  *seconds = bench_now() - begin;
+  *rays = (double)shared.done;
+  free(order);
+  return *rays / *seconds;
+}
+
+static int by_size(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static quoin_stats stats_of(path_lane **lanes, unsigned n) {
+  quoin_stats sum = {0};
+  for (unsigned i = 0; i < n; i++) {
+    quoin_stats s;
+    quoin_work_stats(lanes[i]->work, &s);
+    sum.nodes += s.nodes;
+    sum.leaves += s.leaves;
+    sum.filter_sure += s.filter_sure;
+    sum.exact_signs += s.exact_signs;
+    sum.exact_orders += s.exact_orders;
+    sum.exact_rays += s.exact_rays;
+    sum.exact_roundings += s.exact_roundings;
+  }
+  return sum;
+}
+
+static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) {
+  double rates[64], rays = 0, seconds = 0, all_rays = 0;
+  int right = v->wrong == 0 && v->oracle_wrong == 0;
+  quoin_stats before = stats_of(lanes, b->opt.threads), after = before;
+  if (right) {
+    for (unsigned r = 0; r < b->opt.rounds; r++) {
+      rates[r] = measure(b, p, lanes, &rays, &seconds);
+      all_rays += rays;
+    }
+    qsort(rates, b->opt.rounds, sizeof *rates, by_size);
+    after = stats_of(lanes, b->opt.threads);
+  }
+  double rate = right ? rates[b->opt.rounds / 2] / 1e6 : NAN, each = all_rays > 0 ? 1 / all_rays : 0;
+#define PER(field) ((double)(after.field - before.field) * each)
+  char judged[64];
+  snprintf(judged, sizeof judged, "%zu/%zu", v->wrong + v->oracle_wrong, v->judged + v->oracle_judged);
+  if (right) {
+    printf("%-17s %9.3f  %14s  %8.2f %8.2f %8.2f  %9.2g %9.2g %9.2g %9.2g\n", p->name, rate, judged, PER(nodes), PER(leaves), PER(filter_sure),
+           PER(exact_signs), PER(exact_orders), PER(exact_rays), PER(exact_roundings));
+  } else {
+    printf("%-17s     WRONG  %14s  (oracle %zu of %zu, against the first path %zu of %zu)\n", p->name, judged, v->oracle_wrong, v->oracle_judged,
+           v->wrong, v->judged);
+  }
+  fflush(stdout);
+  if (b->opt.csv) {
+    FILE *f = fopen(b->opt.csv, "a");
+    if (!f) {
+      perror(b->opt.csv);
+      return 0;
+    }
+    const char *isa = getenv("QUOIN_ISA");
+    fprintf(f, "%s,%s,%u,%s,%.0f,%.4f,", b->opt.name, p->name, b->opt.threads, isa ? isa : "best", all_rays, right ? all_rays / (rate * 1e6) : NAN);
+    fprintf(f, "%.5g,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g,%.3g,%.4f,%.4f,%zu,%zu\n", rate, v->judged, v->wrong, v->oracle_judged, v->oracle_wrong,
+            PER(nodes), PER(leaves), PER(filter_sure), PER(exact_signs), PER(exact_orders), PER(exact_rays), PER(exact_roundings), b->read_s, b->compile_s,
+            b->info.leaves, b->info.memory);
+    fclose(f);
+  }
+  return right;
+}
+
+/* --- the program ----------------------------------------------------------------------------------------------------- */
+
+static int wanted(const options *opt, const char *name) {
+  if (!opt->paths) {
+    return 1;
+  }
+  size_t n = strlen(name);
+  for (const char *at = opt->paths; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+    if (strncmp(at, name, n) == 0 && (at[n] == ',' || at[n] == 0)) {
+      return 1;
+    }
+  }
+  return 0;
+}
+static int wants_rays(const options *opt, path_rays rays) {
+  for (size_t i = 0; i < PATH_COUNT; i++) {
+    if (PATHS[i].rays == rays && wanted(opt, PATHS[i].name)) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+static int usage(void) {
+  fputs(USAGE, stderr);
+  return 0;
+}
+
+static int parse(int argc, char **argv, options *opt) {
+  *opt = (options){.threads = 1, .build_threads = 1, .rounds = 3, .seconds = 0.3, .oracle = 100};
+  for (int i = 1; i < argc; i++) {
+    const char *a = argv[i], *v = i + 1 < argc ? argv[i + 1] : NULL;
+    if (strncmp(a, "--", 2) != 0) {
+      *(!opt->model ? &opt->model : &opt->camera) = a;
+      continue;
+    }
+    if (!v) {
+      return usage();
+    }
+    i++;
+    if (strcmp(a, "--paths") == 0) { opt->paths = v; }
+    else if (strcmp(a, "--size") == 0) { opt->size = (unsigned)strtoul(v, NULL, 10); }
+    else if (strcmp(a, "--seconds") == 0) { opt->seconds = strtod(v, NULL); }
+    else if (strcmp(a, "--rounds") == 0) { opt->rounds = (unsigned)strtoul(v, NULL, 10); }
+    else if (strcmp(a, "--threads") == 0) { opt->threads = (unsigned)strtoul(v, NULL, 10); }
+    else if (strcmp(a, "--build-threads") == 0) { opt->build_threads = (unsigned)strtoul(v, NULL, 10); }
+    else if (strcmp(a, "--oracle") == 0) { opt->oracle = strtoul(v, NULL, 10); }
+    else if (strcmp(a, "--csv") == 0) { opt->csv = v; }
+    else if (strcmp(a, "--depths") == 0) { opt->depths = v; }
+    else if (strcmp(a, "--name") == 0) { opt->name = v; }
+    else { return usage(); }
+  }
+  if (!opt->model || !opt->camera || opt->rounds < 1 || opt->rounds > 64 || opt->threads < 1 || opt->threads > 256) {
+    return usage();
+  }
+  if (!opt->name) {
+    const char *slash = strrchr(opt->model, '/');
+    opt->name = slash ? slash + 1 : opt->model;
+  }
+  return 1;
+}
+
+static int load(bench *b, quoin_scene **scene) {
+  quoin_model *model = NULL;
+  double begin = bench_now();
+  if (quoin_model_new(NULL, &model) != QUOIN_OK) {
+    return 0;
+  }
+  quoin_status status = quoin_model_read_file(model, QUOIN_ROOT, b->opt.model, NULL);
+  b->read_s = bench_now() - begin;
+  if (status == QUOIN_OK) {
+    quoin_compile_options how = quoin_compile_options_default();
+    how.threads = b->opt.build_threads;
+    begin = bench_now();
+    status = quoin_scene_compile(model, &how, scene);
+    b->compile_s = bench_now() - begin;
+  }
+  if (status != QUOIN_OK) {
+    fprintf(stderr, "%s: %s\n", b->opt.model, quoin_status_text(status));
+    quoin_diag d;
+    if (quoin_model_diag_count(model) && quoin_model_diag(model, 0, &d) == QUOIN_OK) {
+      fprintf(stderr, "%u:%u: %s\n", d.line, d.column, d.problem);
+    }
+  }
+  quoin_model_free(model);
+  return status == QUOIN_OK;
+}
+
+static void load_oracle(bench *b) {
+  char flat[4096];
+  const char *dot = strrchr(b->opt.model, '.');
+  if (b->opt.oracle && dot && snprintf(flat, sizeof flat, "%.*s.flat", (int)(dot - b->opt.model), b->opt.model) < (int)sizeof flat &&
+      flat_read(flat, &b->flat)) {
+    b->oracle = oracle_new(&b->flat);
+  }
+}
+
+static int write_depths(bench *b, path_lane *lane) {
+  size_t n = (size_t)b->camera.width * b->camera.height;
+  double *all = malloc(n * sizeof *all);
+  FILE *f = fopen(b->opt.depths, "wb");
+  if (!all || !f) {
+    return 0;
+  }
+  for (size_t k = 0; k < n; k++) {
+    quoin_ray r = {.to = INFINITY};
+    quoin_hit h;
+    bench_camera_ray(&b->camera, (unsigned)(k % b->camera.width), (unsigned)(k / b->camera.width), r.o);
+    memcpy(r.d, b->camera.d, sizeof r.d);
+    lane->status = quoin_first_hit(b->job.scene, lane->work, &r, &h);
+    all[k] = h.found ? h.t : INFINITY;
+  }
+  int ok = fwrite(all, sizeof *all, n, f) == n;
+  free(all);
+  return fclose(f) == 0 && ok && lane->status == QUOIN_OK;
+}
+
+int main(int argc, char **argv) {
+  bench b = {0};
+  quoin_scene *scene = NULL;
+  if (!parse(argc, argv, &b.opt) || !bench_camera_read(b.opt.camera, &b.camera)) {
+    return 2;
+  }
+  if (b.opt.size) {
+    b.camera.width = b.camera.height = b.opt.size;
+  }
+  if (!load(&b, &scene)) {
+    return 3;
+  }
+  quoin_scene_get_info(scene, &b.info);
+  b.job.scene = scene;
+  b.job.camera = &b.camera;
+  b.judged_blocks = 8;
+  load_oracle(&b);
+  path_lane *lanes[256] = {0};
+  for (unsigned i = 0; i < b.opt.threads; i++) {
+    lanes[i] = path_lane_new(scene);
+    if (!lanes[i]) {
+      fputs("out of memory\n", stderr);
+      return 1;
+    }
+  }
+  printf("%s: %zu leaves, %zu distinct surfaces, %.1f MB, read %.3f s, compiled %.3f s, grid %ux%u, %u thread%s\n", b.opt.name, b.info.leaves,
+         b.info.distinct_surfaces, (double)b.info.memory / 1e6, b.read_s, b.compile_s, b.camera.width, b.camera.height, b.opt.threads,
+         b.opt.threads == 1 ? "" : "s");
+  int right = 1;
+  if (b.opt.depths && !write_depths(&b, lanes[0])) {
+    fprintf(stderr, "%s: not written\n", b.opt.depths);
+    right = 0;
+  }
+  printf("%-17s %9s  %14s  %8s %8s %8s  %9s %9s %9s %9s\n", "path", "M/s", "wrong/judged", "nodes", "leaves", "sure", "signs", "orders", "rays", "roundings");
+  size_t list = (size_t)b.camera.width * b.camera.height < 262144 ? (size_t)b.camera.width * b.camera.height : 262144;
+  if (!path_lists_make(&b.job, lanes[0], list, wants_rays(&b.opt, RAYS_SHADOW), wants_rays(&b.opt, RAYS_RANDOM), wants_rays(&b.opt, RAYS_POINTS))) {
+    fputs("out of memory\n", stderr);
+    return 1;
+  }
+  reference references[4][3] = {{{0}}}; /* by rays and question */
+  for (size_t i = 0; i < PATH_COUNT; i++) {
+    verdict v;
+    if (!wanted(&b.opt, PATHS[i].name) || path_blocks(&PATHS[i], &b.job) == 0) {
+      continue;
+    }
+    if (!judge(&b, &PATHS[i], &references[PATHS[i].rays][PATHS[i].question], lanes[0], &v)) {
+      fputs("out of memory\n", stderr);
+      return 1;
+    }
+    right &= report(&b, &PATHS[i], &v, lanes);
+  }
+  double sum = 0;
+  for (unsigned i = 0; i < b.opt.threads; i++) {
+    if (lanes[i]->status != QUOIN_OK) {
+      fprintf(stderr, "a call failed: %s\n", quoin_status_text(lanes[i]->status));
+      right = 0;
+    }
+    sum += lanes[i]->sum;
+    path_lane_free(lanes[i]);
+  }
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 3; j++) {
+      free(references[i][j].answers);
+    }
+  }
+  path_lists_free(&b.job);
+  oracle_free(b.oracle);
+  flat_free(&b.flat);
+  quoin_scene_free(scene);
+  return right && sum == sum ? 0 : 1;
+}

@@ -1,0 +1,351 @@
+#include "paths.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A power of two: a ray's direction times it spells the same digits everywhere, and lies outside the double filter's range, so that
+   every decision is taken in exact arithmetic. */
+#define UNFILTERED 0x1p70
+
+/* --- answers --------------------------------------------------------------------------------------------------------- */
+
+static void mix(uint64_t *hash, const void *data, size_t size) {
+  const unsigned char *p = data;
+  for (size_t i = 0; i < size; i++) {
+    *hash = (*hash ^ p[i]) * 0x100000001b3u; /* FNV-1a */
+  }
+}
+
+void path_places(uint64_t *hash, double t) {
+  mix(hash, &t, sizeof t);
+}
+
+static void keep_hit(path_lane *lane, size_t place, const quoin_hit *h) {
+  path_answer *a = &lane->answers[place];
+  *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, 0};
+  mix(&a->hash, &h->found, sizeof h->found);
+  if (h->found) {
+    a->count = 1;
+    path_places(&a->places, h->t);
+    mix(&a->hash, &h->leaving, sizeof h->leaving);
+    mix(&a->hash, &h->t, sizeof h->t);
+    mix(&a->hash, &h->part, sizeof h->part);
+    mix(&a->hash, &h->role, sizeof h->role);
+  }
+}
+
+static void keep_intervals(path_lane *lane, size_t place, const quoin_intervals *answer, double scale) {
+  path_answer *a = &lane->answers[place];
+  *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, (uint32_t)answer->count};
+  for (size_t i = 0; i < answer->count; i++) {
+    const quoin_end *ends[2] = {&answer->inside[i].enter, &answer->inside[i].leave};
+    for (int k = 0; k < 2; k++) {
+      double t = ends[k]->t * scale;
+      mix(&a->hash, &t, sizeof t);
+      path_places(&a->places, t);
+      mix(&a->hash, &ends[k]->part, sizeof ends[k]->part);
+      mix(&a->hash, &ends[k]->role, sizeof ends[k]->role);
+    }
+  }
+}
+
+/* --- the rays of a block --------------------------------------------------------------------------------------------- */
+
+typedef struct extent { unsigned x, y, w, h; } extent;
+
+static extent block_extent(const bench_camera *c, size_t block) {
+  unsigned across = (c->width + BLOCK_EDGE - 1) / BLOCK_EDGE;
+  extent e = {(unsigned)(block % across) * BLOCK_EDGE, (unsigned)(block / across) * BLOCK_EDGE, BLOCK_EDGE, BLOCK_EDGE};
+  e.w = e.x + e.w > c->width ? c->width - e.x : e.w;
+  e.h = e.y + e.h > c->height ? c->height - e.y : e.h;
+  return e;
+}
+
+static void camera_ray(const bench_camera *c, const extent *e, unsigned i, unsigned j, double scale, size_t k, path_lane *lane) {
+  quoin_ray *r = &lane->rays[k];
+  bench_camera_ray(c, e->x + i, e->y + j, r->o);
+  for (int a = 0; a < 3; a++) {
+    r->d[a] = c->d[a] * scale;
+  }
+  r->from = 0;
+  r->to = INFINITY;
+  lane->place[k] = (uint16_t)(j * e->w + i);
+}
+
+static size_t rows(const bench_camera *c, size_t block, double scale, path_lane *lane) {
+  extent e = block_extent(c, block);
+  size_t k = 0;
+  for (unsigned j = 0; j < e.h; j++) {
+    for (unsigned i = 0; i < e.w; i++) {
+      camera_ray(c, &e, i, j, scale, k++, lane);
+    }
+  }
+  return k;
+}
+
+/* 8 by 8 tiles, one after another. */
+static size_t tiles(const bench_camera *c, size_t block, path_lane *lane) {
+  extent e = block_extent(c, block);
+  size_t k = 0;
+  for (unsigned j0 = 0; j0 < e.h; j0 += 8) {
+    for (unsigned i0 = 0; i0 < e.w; i0 += 8) {
+      for (unsigned j = j0; j < j0 + 8 && j < e.h; j++) {
+        for (unsigned i = i0; i < i0 + 8 && i < e.w; i++) {
+          camera_ray(c, &e, i, j, 1, k++, lane);
+        }
+      }
+    }
+  }
+  return k;
+}
+
+static size_t listed(const quoin_ray *all, size_t count, size_t block, path_lane *lane) {
+  size_t n = count - block * BLOCK < BLOCK ? count - block * BLOCK : BLOCK;
+  memcpy(lane->rays, all + block * BLOCK, n * sizeof *all);
+  for (size_t k = 0; k < n; k++) {
+    lane->place[k] = (uint16_t)k;
+  }
+  return n;
+}
+
+/* --- the calls ------------------------------------------------------------------------------------------------------- */
+
+static void keep_hits(path_lane *lane, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    lane->sum += lane->hits[k].t;
+    if (lane->answers) {
+      keep_hit(lane, lane->place[k], &lane->hits[k]);
+    }
+  }
+}
+
+static void fail(path_lane *lane, quoin_status status) {
+  lane->status = status != QUOIN_OK ? status : lane->status;
+}
+
+static size_t hits_of(const path_job *job, path_lane *lane, size_t n) {
+  fail(lane, quoin_first_hits(job->scene, lane->work, n, lane->rays, lane->hits));
+  keep_hits(lane, n);
+  return n;
+}
+
+static size_t single_hits_of(const path_job *job, path_lane *lane, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    fail(lane, quoin_first_hit(job->scene, lane->work, &lane->rays[k], &lane->hits[k]));
+  }
+  keep_hits(lane, n);
+  return n;
+}
+
+static int each_answer(void *user, size_t i, const quoin_intervals *answer) {
+  path_lane *lane = user;
+  lane->sum += (double)answer->count;
+  if (lane->answers) {
+    keep_intervals(lane, lane->place[i], answer, 1);
+  }
+  return 0;
+}
+
+static size_t block_hits_rows(const path_job *job, path_lane *lane, size_t block) {
+  return hits_of(job, lane, rows(job->camera, block, 1, lane));
+}
+static size_t block_hits_tiles(const path_job *job, path_lane *lane, size_t block) {
+  return hits_of(job, lane, tiles(job->camera, block, lane));
+}
+static size_t block_hits_single(const path_job *job, path_lane *lane, size_t block) {
+  return single_hits_of(job, lane, rows(job->camera, block, 1, lane));
+}
+static size_t block_intervals(const path_job *job, path_lane *lane, size_t block) {
+  size_t n = tiles(job->camera, block, lane);
+  fail(lane, quoin_ray_intervals_many(job->scene, lane->work, n, lane->rays, 0, each_answer, lane));
+  return n;
+}
+static size_t intervals_one_by_one(const path_job *job, path_lane *lane, size_t block, double scale) {
+  size_t n = rows(job->camera, block, scale, lane);
+  for (size_t k = 0; k < n; k++) {
+    quoin_intervals answer;
+    fail(lane, quoin_ray_intervals(job->scene, lane->work, &lane->rays[k], 0, &answer));
+    lane->sum += (double)answer.count;
+    if (lane->answers) {
+      keep_intervals(lane, lane->place[k], &answer, scale);
+    }
+  }
+  return n;
+}
+static size_t block_intervals_single(const path_job *job, path_lane *lane, size_t block) {
+  return intervals_one_by_one(job, lane, block, 1);
+}
+static size_t block_intervals_exact(const path_job *job, path_lane *lane, size_t block) {
+  return intervals_one_by_one(job, lane, block, UNFILTERED);
+}
+static size_t block_shadow(const path_job *job, path_lane *lane, size_t block) {
+  return hits_of(job, lane, listed(job->lists.shadow, job->lists.shadow_count, block, lane));
+}
+static size_t block_shadow_single(const path_job *job, path_lane *lane, size_t block) {
+  return single_hits_of(job, lane, listed(job->lists.shadow, job->lists.shadow_count, block, lane));
+}
+static size_t block_random(const path_job *job, path_lane *lane, size_t block) {
+  return hits_of(job, lane, listed(job->lists.random, job->lists.random_count, block, lane));
+}
+static size_t block_random_single(const path_job *job, path_lane *lane, size_t block) {
+  return single_hits_of(job, lane, listed(job->lists.random, job->lists.random_count, block, lane));
+}
+
+static void keep_sides(path_lane *lane, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    lane->sum += (double)lane->sides[k];
+    if (lane->answers) {
+      lane->answers[k] = (path_answer){(uint64_t)lane->sides[k], (uint64_t)lane->sides[k], 1};
+    }
+  }
+}
+static size_t block_points(const path_job *job, path_lane *lane, size_t block) {
+  const path_lists *l = &job->lists;
+  size_t n = l->point_count - block * BLOCK < BLOCK ? l->point_count - block * BLOCK : BLOCK;
+  fail(lane, quoin_point_sides(job->scene, lane->work, n, l->points + 3 * block * BLOCK, lane->sides));
+  keep_sides(lane, n);
+  return n;
+}
+static size_t block_points_single(const path_job *job, path_lane *lane, size_t block) {
+  const path_lists *l = &job->lists;
+  size_t n = l->point_count - block * BLOCK < BLOCK ? l->point_count - block * BLOCK : BLOCK;
+  for (size_t k = 0; k < n; k++) {
+    fail(lane, quoin_point_side(job->scene, lane->work, l->points + 3 * (block * BLOCK + k), &lane->sides[k]));
+  }
+  keep_sides(lane, n);
+  return n;
+}
+
+const path PATHS[] = {
+  {"tiles", "first hits, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_HITS, block_hits_tiles},
+  {"rows", "first hits, camera rays in rows of 64", RAYS_CAMERA, ASK_HITS, block_hits_rows},
+  {"single", "first hits, camera rays one by one", RAYS_CAMERA, ASK_HITS, block_hits_single},
+  {"intervals", "all intervals, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_INTERVALS, block_intervals},
+  {"intervals-single", "all intervals, one by one", RAYS_CAMERA, ASK_INTERVALS, block_intervals_single},
+  {"intervals-exact", "all intervals, the filter off", RAYS_CAMERA, ASK_INTERVALS, block_intervals_exact},
+  {"shadow", "first hits, rays from what the camera sees to a light", RAYS_SHADOW, ASK_HITS, block_shadow},
+  {"shadow-single", "the same, one by one", RAYS_SHADOW, ASK_HITS, block_shadow_single},
+  {"random", "first hits, incoherent rays", RAYS_RANDOM, ASK_HITS, block_random},
+  {"random-single", "the same, one by one", RAYS_RANDOM, ASK_HITS, block_random_single},
+  {"points", "sides of points", RAYS_POINTS, ASK_SIDES, block_points},
+  {"points-single", "the same, one by one", RAYS_POINTS, ASK_SIDES, block_points_single},
+};
+const size_t PATH_COUNT = sizeof PATHS / sizeof *PATHS;
+
+/* --- blocks and lists ------------------------------------------------------------------------------------------------ */
+
+static size_t grid_blocks(const bench_camera *c) {
+  return (size_t)((c->width + BLOCK_EDGE - 1) / BLOCK_EDGE) * ((c->height + BLOCK_EDGE - 1) / BLOCK_EDGE);
+}
+
+size_t path_blocks(const path *p, const path_job *job) {
+  switch (p->rays) {
+  case RAYS_CAMERA: return grid_blocks(job->camera);
+  case RAYS_SHADOW: return (job->lists.shadow_count + BLOCK - 1) / BLOCK;
+  case RAYS_RANDOM: return (job->lists.random_count + BLOCK - 1) / BLOCK;
+  case RAYS_POINTS: return (job->lists.point_count + BLOCK - 1) / BLOCK;
+  }
+  return 0;
+}
+
+path_lane *path_lane_new(const quoin_scene *scene) {
+  path_lane *lane = calloc(1, sizeof *lane);
+  if (lane && quoin_work_new(scene, &lane->work) != QUOIN_OK) {
+    free(lane);
+    lane = NULL;
+  }
+  return lane;
+}
+void path_lane_free(path_lane *lane) {
+  if (lane) {
+    quoin_work_free(lane->work);
+    free(lane);
+  }
+}
+
+/* From every hit of blocks that are spread over the grid, in the order of the tiles, towards a light behind the camera's shoulder. */
+static int make_shadow(path_job *job, path_lane *lane, size_t n) {
+  const bench_camera *c = job->camera;
+  path_lists *l = &job->lists;
+  double light[3], u = 0, v = 0;
+  for (int a = 0; a < 3; a++) {
+    u += c->u[a] * c->u[a];
+    v += c->v[a] * c->v[a];
+  }
+  for (int a = 0; a < 3; a++) {
+    light[a] = 0.4 * c->u[a] / sqrt(u) + 0.6 * c->v[a] / sqrt(v) - c->d[a];
+  }
+  double off = 1e-6 * sqrt(u + v);
+  size_t all = grid_blocks(c), wanted = (n + BLOCK - 1) / BLOCK, step = all / wanted ? all / wanted : 1;
+  l->shadow = malloc((all / step + 1) * BLOCK * sizeof *l->shadow);
+  if (!l->shadow) {
+    return 0;
+  }
+  double begin = bench_now();
+  for (size_t b = step / 2; b < all && bench_now() - begin < 5; b += step) {
+    size_t count = tiles(c, b, lane);
+    hits_of(job, lane, count);
+    for (size_t k = 0; k < count; k++) {
+      const quoin_hit *h = &lane->hits[k];
+      if (h->found) {
+        quoin_ray *r = &l->shadow[l->shadow_count++];
+        for (int a = 0; a < 3; a++) {
+          r->o[a] = h->point[a] + off * h->normal[a];
+          r->d[a] = light[a];
+        }
+        r->from = 0;
+        r->to = INFINITY;
+      }
+    }
+  }
+  return 1;
+}
+
+static int make_random(path_job *job, size_t n, int want_rays, int want_points) {
+  quoin_scene_info info;
+  quoin_scene_get_info(job->scene, &info);
+  path_lists *l = &job->lists;
+  l->random = want_rays ? malloc(n * sizeof *l->random) : NULL;
+  l->points = want_points ? malloc(3 * n * sizeof *l->points) : NULL;
+  if ((want_rays && !l->random) || (want_points && !l->points)) {
+    return 0;
+  }
+  uint64_t state = 20260101;
+  double radius = 0;
+  for (int a = 0; a < 3; a++) {
+    radius += (info.box_max[a] - info.box_min[a]) * (info.box_max[a] - info.box_min[a]) / 4;
+  }
+  radius = sqrt(radius);
+  for (size_t k = 0; want_rays && k < n; k++) { /* from a point of the ball's surface to a point of the box */
+    quoin_ray *r = &l->random[l->random_count++];
+    double z = bench_between(&state, -1, 1), p = bench_between(&state, 0, 6.283185307179586), q = sqrt(1 - z * z), length = 0;
+    const double from[3] = {q * cos(p), q * sin(p), z};
+    for (int a = 0; a < 3; a++) {
+      r->o[a] = (info.box_min[a] + info.box_max[a]) / 2 + radius * from[a];
+      r->d[a] = bench_between(&state, info.box_min[a], info.box_max[a]) - r->o[a];
+      length += r->d[a] * r->d[a];
+    }
+    for (int a = 0; a < 3; a++) {
+      r->d[a] /= sqrt(length);
+    }
+    r->from = 0;
+    r->to = INFINITY;
+  }
+  for (size_t k = 0; want_points && k < n; k++) {
+    for (int a = 0; a < 3; a++) {
+      l->points[3 * k + (size_t)a] = bench_between(&state, info.box_min[a], info.box_max[a]);
+    }
+    l->point_count++;
+  }
+  return 1;
+}
+
+int path_lists_make(path_job *job, path_lane *lane, size_t n, int want_shadow, int want_random, int want_points) {
+  return (!want_shadow || make_shadow(job, lane, n)) && make_random(job, n, want_random, want_points);
+}
+void path_lists_free(path_job *job) {
+  free(job->lists.shadow);
+  free(job->lists.random);
+  free(job->lists.points);
+}
