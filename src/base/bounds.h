@@ -98,6 +98,20 @@
 #define QN_WIDE_ROUND 32
 #define QN_WIDE_SHY 0x1p14
 
+/* Rounding places in wide code (src/wide/newton.h, scene/rounding.h). Legend: y = o - c + t d with c the surface's pivot; over the
+   coordinates that occur, S = sum |o_j - c_j| + |t d_j|, D = sum |d_j|; K2, K1, K0 the surface's SQUARE, LINEAR and CONSTANT.
+     |p^(t) - p(t)| <= QN_ROUND_EVAL (K2 S^2 + K1 S + K0) + u |p^|,  |p'^ - p'| <= QN_ROUND_SLOPE D (2 K2 S + K1),  |a| <= K2 D^2
+   for S <= QN_ROUND_LARGEST and D within QN_ROUND_WIDEST and its inverse. Coefficients below 2^QN_ROUND_DROP are dropped: the three
+   sizes named tiny, added to K2, K1 and K0, cover that and any underflow. */
+#define QN_ROUND_EVAL 0x1p-97
+#define QN_ROUND_SLOPE (32 * QN_U)
+#define QN_ROUND_DROP (-240)
+#define QN_ROUND_SQUARE_TINY 0x1p-236
+#define QN_ROUND_LINEAR_TINY 0x1p-80
+#define QN_ROUND_TINY 0x1p-56
+#define QN_ROUND_LARGEST 0x1p+42
+#define QN_ROUND_WIDEST 0x1p+400
+
 /* A point against a leaf's shadow (query/point.c). Legend as above with W the point's weight (|true y - y| <= u W, |y| <= W);
    Omega' = |X^| + QN_POINT_MAP_E Omega. Wherever every Omega and every |s|, |l| is at most QN_POINT_LARGEST,
      |X^ - X| <= QN_POINT_MAP_E Omega + QN_POINT_TINY

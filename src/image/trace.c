@@ -76,16 +76,17 @@ void qn_tracer_free(const quoin_scene *scene, qn_tracer *tracer) {
   }
 }
 
-static const qn_finish *finish_of(const qn_picture *p, const quoin_hit *hit) {
-  return &p->finishes[p->scene->leaves[hit->part].material];
+static const qn_finish *finish_of(const qn_picture *p, const qn_seen *hit) {
+  return &p->finishes[p->scene->leaves[hit->leaf].material];
 }
 
 /* The spot of a hit: normals turned to the viewer on a wall seen from inside; at a singular point the view direction serves. */
-static void make_spot(const quoin_ray *ray, const quoin_hit *hit, qn_spot *spot) {
+static void make_spot(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *hit, qn_spot *spot) {
+  qn_seen_normal(scene, ray, hit, spot->normal);
   for (int i = 0; i < 3; i++) {
-    spot->point[i] = hit->point[i];
+    spot->point[i] = ray->o[i] + hit->t * ray->d[i];
     spot->viewer[i] = -ray->d[i];
-    spot->normal[i] = hit->leaving ? -hit->normal[i] : hit->normal[i];
+    spot->normal[i] = hit->leaving ? -spot->normal[i] : spot->normal[i];
   }
   (void)qn_unit3(spot->viewer); /* of a direction, which is not zero */
   if (!qn_unit3(spot->normal)) {
@@ -93,8 +94,11 @@ static void make_spot(const quoin_ray *ray, const quoin_hit *hit, qn_spot *spot)
   }
 }
 
-static int hidden(const quoin_hit *hit) {
-  return hit->found && !(hit->leaving && hit->t == 0);
+static int found(const qn_seen *hit) {
+  return hit->surface != QUOIN_NO_SURFACE;
+}
+static int hidden(const qn_seen *hit) {
+  return found(hit) && !(hit->leaving && hit->t == 0);
 }
 
 /* Adds one lamp's light to the batch. */
@@ -103,7 +107,7 @@ static quoin_status add_lamp(const qn_picture *p, qn_tracer *t, size_t n, const 
   for (size_t i = 0; i < n; i++) {
     double towards[3], cosine;
     const qn_spot *spot = &t->spots[i];
-    if (!t->hits[i].found || !qn_light_towards(lamp, spot, towards, &cosine)) {
+    if (!found(&t->hits[i]) || !qn_light_towards(lamp, spot, towards, &cosine)) {
       continue;
     }
     if (!p->shadows || lamp->headlight || t->hits[i].leaving) {
@@ -117,9 +121,10 @@ static quoin_status add_lamp(const qn_picture *p, qn_tracer *t, size_t n, const 
     }
     memcpy(t->towards[waiting], towards, sizeof towards);
     t->cosine[waiting] = cosine;
+    t->starts_on[waiting] = t->hits[i].surface;
     t->lit[waiting++] = (uint32_t)i;
   }
-  const quoin_status status = waiting ? quoin_first_hits(p->scene, t->work, waiting, t->shadow_rays, t->shadow_hits) : QUOIN_OK;
+  const quoin_status status = waiting ? qn_look(t->work, waiting, t->shadow_rays, t->starts_on, 0, t->shadow_hits) : QUOIN_OK;
   if (status != QUOIN_OK) {
     return status;
   }
@@ -137,14 +142,14 @@ quoin_status qn_trace(const qn_picture *p, qn_tracer *t, size_t n, const double 
   for (size_t i = 0; i < n; i++) {
     qn_frustum_ray(&p->frustum, xy[i][0], xy[i][1], &t->rays[i]);
   }
-  quoin_status status = quoin_first_hits(p->scene, t->work, n, t->rays, t->hits);
+  quoin_status status = qn_look(t->work, n, t->rays, NULL, QN_LOOK_T | QN_LOOK_MATERIAL, t->hits);
   t->camera_rays += n;
   for (size_t i = 0; status == QUOIN_OK && i < n; i++) {
-    const quoin_hit *hit = &t->hits[i];
-    if (hit->found) {
-      make_spot(&t->rays[i], hit, &t->spots[i]);
+    const qn_seen *hit = &t->hits[i];
+    if (found(hit)) {
+      make_spot(p->scene, &t->rays[i], hit, &t->spots[i]);
       qn_light_ambient(finish_of(p, hit), out[i].light);
-      out[i].surface = (uint64_t)hit->part << 32 | hit->role;
+      out[i].surface = (uint64_t)hit->surface << 32 | p->scene->leaves[hit->leaf].material;
     } else {
       memcpy(out[i].light, p->background, sizeof out[i].light);
       out[i].surface = QN_NO_SURFACE_SEEN;

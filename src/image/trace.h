@@ -3,6 +3,7 @@
 #define QN_IMAGE_TRACE_H
 
 #include "image/light.h"
+#include "query/look.h"
 #include "scene/scene.h"
 
 /* What all threads of one rendering share; constant while they run. */
@@ -21,7 +22,7 @@ QN_NODISCARD quoin_status qn_picture_make(const quoin_scene *scene, const quoin_
 void qn_picture_free(qn_picture *picture);
 
 #define QN_NO_SURFACE_SEEN UINT64_MAX
-/* One sample: its light, each component in [0, 1], and the surface that is seen: part << 32 | role. */
+/* One sample: its light, each component in [0, 1], and what is seen: the scene's surface << 32 | the material. */
 typedef struct qn_sample { double light[3]; uint64_t surface; } qn_sample;
 
 enum { QN_BATCH = 256 }; /* rays that are asked at once */
@@ -30,9 +31,10 @@ enum { QN_BATCH = 256 }; /* rays that are asked at once */
 typedef struct qn_tracer {
   quoin_work *work;
   quoin_ray rays[QN_BATCH], shadow_rays[QN_BATCH];
-  quoin_hit hits[QN_BATCH], shadow_hits[QN_BATCH];
+  qn_seen hits[QN_BATCH], shadow_hits[QN_BATCH];
   qn_spot spots[QN_BATCH];
   double towards[QN_BATCH][3], cosine[QN_BATCH];
+  uint32_t starts_on[QN_BATCH]; /* shadow rays' surfaces */
   uint32_t lit[QN_BATCH]; /* spots that wait for a shadow ray's answer */
   uint64_t camera_rays, shadow_ray_count, refined_pixels;
 } qn_tracer;

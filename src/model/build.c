@@ -26,7 +26,8 @@ static void warn(quoin_model *m, qn_code code, const char *problem) {
 }
 
 /* A node with the exact values of n doubles. */
-static quoin_status add(quoin_model *m, quoin_node parent, qn_node_kind kind, uint32_t payload, const double *v, size_t n, quoin_node *out) {
+static quoin_status add(quoin_model *m, quoin_node parent, qn_node_kind kind, uint32_t payload, const double *v, size_t n,
+                        quoin_node *out) {
   qn_num numbers[16];
   qn_mark mark = qn_arena_mark(&m->ctx.arena);
   for (size_t i = 0; i < n; i++) {
@@ -45,7 +46,8 @@ static quoin_status add(quoin_model *m, quoin_node parent, qn_node_kind kind, ui
 }
 
 /* A transform; a singular one is an intersection with nothing, which stays empty whatever is added. */
-static quoin_status add_transform(quoin_model *m, quoin_node parent, qn_node_kind kind, const double *v, size_t n, int singular, quoin_node *out) {
+static quoin_status add_transform(quoin_model *m, quoin_node parent, qn_node_kind kind, const double *v, size_t n, int singular,
+                                  quoin_node *out) {
   if (!singular) {
     return add(m, parent, kind, 0, v, n, out);
   }

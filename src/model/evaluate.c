@@ -144,7 +144,8 @@ static void bind_arguments(qn_call *call, size_t word) {
         }
         char way_out[96];
         snprintf(way_out, sizeof way_out, "did you mean '%.60s'?", best ? best : "");
-        qn_tell(ev->reporter, QN_Q0403, a.offset, name->length, "it is ignored", best ? way_out : NULL, "%s: unknown argument '%.60s'", w->word,
+        qn_tell(ev->reporter, QN_Q0403, a.offset, name->length, "it is ignored", best ? way_out : NULL,
+                "%s: unknown argument '%.60s'", w->word,
                 name->text);
       }
     }
@@ -196,7 +197,8 @@ static void begin(qn_evaluator *ev, const qn_statement *st, uint32_t parent, uin
     return;
   case QN_CLASS_LATER:
   case QN_CLASS_LATER_GROUP:
-    qn_tell(ev->reporter, QN_Q0402, st->offset, ev->syntax->names.items[st->word].length, w->what, NULL, "'%s' is not supported yet", w->word);
+    qn_tell(ev->reporter, QN_Q0402, st->offset, ev->syntax->names.items[st->word].length, w->what, NULL,
+            "'%s' is not supported yet", w->word);
     *into = w->class == QN_CLASS_LATER_GROUP ? parent : QN_NO_NODE;
     return;
   case QN_CLASS_SOLID:
@@ -250,7 +252,8 @@ static void begin(qn_evaluator *ev, const qn_statement *st, uint32_t parent, uin
       m->only = node;
       m->nodes[node].flags |= QN_MOD_ONLY;
     } else {
-      qn_tell(ev->reporter, QN_Q0411, st->offset, ev->syntax->names.items[st->word].length, "only the first one counts", NULL, "a second '!'");
+      qn_tell(ev->reporter, QN_Q0411, st->offset, ev->syntax->names.items[st->word].length, "only the first one counts", NULL,
+              "a second '!'");
     }
   }
   if (w->class == QN_CLASS_GROUP || w->class == QN_CLASS_SAY) {

@@ -251,7 +251,8 @@ uint32_t qn_make_hyperboloid(qn_call *call) {
   qn_num h = qn_arg_number(call, H, QN_NUM_ONE), r = radius1(call, R, D, QN_NUM_ONE);
   int two = qn_arg_given(call, GAP);
   if (two == qn_arg_given(call, RC)) {
-    qn_arg_tell(call, QN_Q0412, two ? GAP : -1, "rc, the waist's radius, makes one sheet; gap, half the distance of the vertices, two", NULL,
+    qn_arg_tell(call, QN_Q0412, two ? GAP : -1,
+                "rc, the waist's radius, makes one sheet; gap, half the distance of the vertices, two", NULL,
                 two ? "'rc' and 'gap' are both given" : "'rc' or 'gap' is missing");
   }
   qn_num inner = two ? qn_arg_number(call, GAP, QN_NUM_ZERO) : qn_arg_number(call, RC, QN_NUM_ZERO);

@@ -181,7 +181,8 @@ uint32_t qn_make_light(qn_call *call) {
   int at = point(call, AT, light.at);
   light.directional = point(call, DIRECTION, light.direction);
   if (!call->bad && !call->not_finite && at == light.directional) {
-    qn_arg_tell(call, QN_Q0412, -1, "a lamp has a place, the sun a direction", NULL, at ? "'at' and 'direction' are both given" : "'at' or 'direction' is missing");
+    qn_arg_tell(call, QN_Q0412, -1, "a lamp has a place, the sun a direction", NULL,
+                at ? "'at' and 'direction' are both given" : "'at' or 'direction' is missing");
   }
   if (!call->bad && light.directional && light.direction[0] == 0 && light.direction[1] == 0 && light.direction[2] == 0) {
     qn_arg_tell(call, QN_Q0508, DIRECTION, "the zero vector has no direction", NULL, "'direction' must not be zero");

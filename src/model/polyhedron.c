@@ -131,7 +131,8 @@ static void *room(body *b, size_t size) {
 static int read_points(body *b) {
   qn_value v = b->call->value[POINTS];
   if (v.kind == QN_V_UNDEF) {
-    qn_arg_tell(b->call, QN_Q0412, -1, NULL, "write polyhedron(points = [[x, y, z], ...], faces = [[i, j, k], ...])", "'points' is missing");
+    qn_arg_tell(b->call, QN_Q0412, -1, NULL, "write polyhedron(points = [[x, y, z], ...], faces = [[i, j, k], ...])",
+                "'points' is missing");
     return 0;
   }
   qn_num *points = v.kind == QN_V_VECTOR ? room(b, 3 * (size_t)v.count * sizeof *points) : NULL;
@@ -293,7 +294,8 @@ static int closed(body *b) {
     }
     if (turn) {
       qn_arg_tell(b->call, QN_Q0511, FACES, "each edge must belong to two faces that pass it in opposite directions", NULL,
-                  "the faces do not close up at the edge from point %lu to point %lu", (unsigned long)edges[i].low, (unsigned long)edges[i].high);
+                  "the faces do not close up at the edge from point %lu to point %lu",
+                  (unsigned long)edges[i].low, (unsigned long)edges[i].high);
       return 0;
     }
     i = j;
@@ -325,7 +327,8 @@ static int find_planes(body *b) {
     }
     for (uint32_t i = 0; i < l->count; i++) {
       if (side(b->ctx, plane, b->points + 3 * b->corners[l->first + i]) != 0) {
-        qn_arg_tell(b->call, QN_Q0512, FACES, "its points are taken exactly as they are written", "split it into triangles", "face %zu is not plane", f);
+        qn_arg_tell(b->call, QN_Q0512, FACES, "its points are taken exactly as they are written",
+                    "split it into triangles", "face %zu is not plane", f);
         return 0;
       }
     }

@@ -55,7 +55,8 @@ static quoin_status too_large(quoin_model *m, unsigned file) {
   return QUOIN_E_LIMIT;
 }
 
-static quoin_status read(quoin_model *m, uint32_t parent, unsigned file, const char *text, size_t length, const quoin_read_options *options) {
+static quoin_status read(quoin_model *m, uint32_t parent, unsigned file, const char *text, size_t length,
+                         const quoin_read_options *options) {
   before b = remember(m, parent);
   if (length > QN_MAX_TEXT) {
     return too_large(m, file);

@@ -72,7 +72,8 @@ QUOIN_API quoin_status quoin_model_diag(const quoin_model *model, size_t index, 
   return QUOIN_OK;
 }
 
-uint32_t qn_solid_add(quoin_model *m, uint32_t parent, qn_node_kind kind, uint32_t payload, qn_loc loc, const qn_num *from, size_t numbers) {
+uint32_t qn_solid_add(quoin_model *m, uint32_t parent, qn_node_kind kind, uint32_t payload, qn_loc loc, const qn_num *from,
+                      size_t numbers) {
   if (m->node_count >= QN_NO_NODE || m->number_count + numbers >= UINT32_MAX ||
       !qn_grow(&m->mem, &m->nodes, &m->node_capacity, m->node_count + 1) ||
       !qn_grow(&m->mem, &m->numbers, &m->number_capacity, m->number_count + numbers)) {

@@ -15,6 +15,27 @@
 #include "number/num_parts.h"
 
 #include <mpfr.h>
+#include <pthread.h>
+
+/* MPFR keeps constants and scratch for each thread. They are worth keeping (pi, above all), and whichever thread has been here gives
+   them back when it ends: the thread may be the caller's, so nobody else would. The key is written once and then only read. */
+static pthread_once_t key_once = PTHREAD_ONCE_INIT;
+static pthread_key_t key;
+static int key_made;
+
+static void give_back(void *used) {
+  (void)used;
+  mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);
+}
+static void make_key(void) {
+  key_made = pthread_key_create(&key, give_back) == 0;
+}
+static void give_back_at_end(void) {
+  pthread_once(&key_once, make_key);
+  if (key_made) {
+    pthread_setspecific(key, &key); /* any non-null value: it makes the thread's end call give_back */
+  }
+}
 
 typedef enum function { SIN, COS, TAN, ATAN, ATAN_PLUS, EXP, LN, POW, ROOT, SIN_ROOT, COS_ROOT } function;
 
@@ -100,7 +121,7 @@ static long evaluate(qn_ctx *ctx, const call *c, mpfr_t y, mpfr_t t) {
       }
       {
         long size = mpfr_zero_p(y) || mpfr_get_exp(y) < 0 ? 0 : (long)mpfr_get_exp(y);
-        if (size > 40) { /* the result has more than 2^39 bits before or behind the point */
+        if (size > 28) { /* over 2^27 bits before or behind the point; under 2^28 MPFR's exponents (2^30) hold it */
           qn_ctx_fail_(ctx, QUOIN_E_LIMIT);
           return 0;
         }
@@ -139,6 +160,7 @@ static qn_num number_of(qn_ctx *ctx, mpfr_t y, int negative) {
 static qn_num ziv(qn_ctx *ctx, const call *c, int negative) {
   qn_num result = QN_NUM_ZERO;
   mpfr_t y, t, low, high;
+  give_back_at_end();
   mpfr_inits2(QN_S2_PRECISION, low, high, (mpfr_ptr)0);
   mpfr_inits2(QN_S2_PRECISION + 64, y, t, (mpfr_ptr)0);
   while (ctx->failed == QUOIN_OK) {
@@ -476,6 +498,7 @@ int qn_num_pow(qn_ctx *ctx, qn_num a, qn_num b, qn_num *out) {
 }
 qn_num qn_num_pi(qn_ctx *ctx) {
   mpfr_t y;
+  give_back_at_end();
   mpfr_init2(y, QN_S2_PRECISION);
   mpfr_const_pi(y, MPFR_RNDN);
   qn_num r = number_of(ctx, y, 0);

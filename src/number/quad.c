@@ -15,8 +15,9 @@
    A root and a rational n/m, m > 0: a m (x - n/m) = B + s m sqrt d with B = -(h m + a n), and
        m^2 d - B^2 = -a (a n^2 + 2 h n m + c m^2) = -a P.
      s = +: B >= 0 gives x > n/m, else -P has the sign. s = -: B <= 0 gives x < n/m, else P has it.
+   Quadratics with a rounding of S2 in them are ordered by quad_s2.c instead.
    Source of the scheme: Devillers, Fronville, Mourrain, Teillaud (2002), see docs/references.md. */
-#include "number/quad.h"
+#include "number/quad_parts.h"
 
 /* A number that S2 calls zero becomes an exact zero, so that every later step sees one and the same quadratic. */
 static qn_xint settle(qn_xint x, int *sign) {
@@ -52,28 +53,6 @@ static signed_root upright(qn_root x) {
   const qn_quad *q = x.q;
   return q->sign_a > 0 ? (signed_root){q->a, q->h, q->c, q->disc, x.which}
                        : (signed_root){qn_x_neg(q->a), qn_x_neg(q->h), qn_x_neg(q->c), q->disc, x.which};
-}
-
-/* The root as num/den with den > 0 when its quadratic is linear or has a double root. */
-static int plain_rational(qn_ctx *ctx, qn_root x, qn_xint *num, qn_xint *den) {
-  const qn_quad *q = x.q;
-  int sign;
-  if (q->sign_a == 0) {
-    *num = qn_x_neg(q->c);
-    *den = qn_x_shl(ctx, q->h, 1);
-    sign = q->sign_h;
-  } else if (q->sign_disc == 0) {
-    *num = qn_x_neg(q->h);
-    *den = q->a;
-    sign = q->sign_a;
-  } else {
-    return 0;
-  }
-  if (sign < 0) {
-    *num = qn_x_neg(*num);
-    *den = qn_x_neg(*den);
-  }
-  return 1;
 }
 
 /* P: the value at n/m times m^2. */
@@ -129,16 +108,19 @@ static int plus_plus(qn_ctx *ctx, const signed_root *x, const signed_root *y) {
 }
 
 static int compare(qn_ctx *ctx, qn_root x, qn_root y) {
-  qn_xint n1, m1, n2, m2;
-  int r1 = plain_rational(ctx, x, &n1, &m1), r2 = plain_rational(ctx, y, &n2, &m2);
+  if (qn_quad_rounded_(x.q) || qn_quad_rounded_(y.q)) {
+    return qn_root_cmp_s2_(ctx, x, y);
+  }
+  qn_int n1, m1, n2, m2;
+  int r1 = qn_root_plain_(ctx, x, &n1, &m1), r2 = qn_root_plain_(ctx, y, &n2, &m2);
   if (r1 && r2) {
-    return qn_x_sign(qn_x_sub(ctx, qn_x_mul(ctx, n1, m2), qn_x_mul(ctx, n2, m1)));
+    return qn_int_cmp(qn_int_mul(ctx, n1, m2), qn_int_mul(ctx, n2, m1));
   }
   if (r1) {
-    return -against_rational(ctx, upright(y), n1, m1);
+    return -against_rational(ctx, upright(y), qn_x(n1), qn_x(m1));
   }
   if (r2) {
-    return against_rational(ctx, upright(x), n2, m2);
+    return against_rational(ctx, upright(x), qn_x(n2), qn_x(m2));
   }
   signed_root p = upright(x), q = upright(y);
   if (p.plus && q.plus) {
@@ -167,10 +149,14 @@ int qn_root_cmp(qn_ctx *ctx, qn_root x, qn_root y) {
 
 int qn_root_cmp_rat(qn_ctx *ctx, qn_root x, qn_int num, qn_int den) {
   qn_mark mark = qn_arena_mark(&ctx->arena);
-  qn_xint n, m;
+  qn_int n, m;
   int order;
-  if (plain_rational(ctx, x, &n, &m)) {
-    order = qn_x_sign(qn_x_sub(ctx, qn_x_mul(ctx, n, qn_x(den)), qn_x_mul(ctx, qn_x(num), m)));
+  if (qn_quad_rounded_(x.q)) {
+    qn_quad line;
+    qn_quad_make(ctx, qn_x(qn_int_from(ctx, 0)), qn_x(den), qn_x(qn_int_neg(qn_int_shl(ctx, num, 1))), &line);
+    order = qn_root_cmp_s2_(ctx, x, (qn_root){&line, 0});
+  } else if (qn_root_plain_(ctx, x, &n, &m)) {
+    order = qn_int_cmp(qn_int_mul(ctx, n, den), qn_int_mul(ctx, num, m));
   } else {
     order = against_rational(ctx, upright(x), qn_x(num), qn_x(den));
   }

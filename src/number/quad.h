@@ -30,7 +30,8 @@ qn_quad_shape qn_quad_kind(const qn_quad *q);
 /* A root: which = 0 the smaller of two (or the only one), 1 the larger. Of a DOUBLE, 0 is the touching place. */
 typedef struct qn_root { const qn_quad *q; int which; } qn_root;
 
-/* The exact order of two roots, -1, 0 or 1; roots of rounded quadratics tie by the rule of S2. Cost 0.2 to 1 us. */
+/* The exact order of two roots, -1, 0 or 1; roots of rounded quadratics tie when they agree to 2^-QN_S2_BITS, relative to what
+   a change of that size in the coefficients does to them. Cost 0.2 to 1 us, a few us where one is rounded. */
 int qn_root_cmp(qn_ctx *ctx, qn_root x, qn_root y);
 /* The order of a root and the rational num/den, den > 0. */
 int qn_root_cmp_rat(qn_ctx *ctx, qn_root x, qn_int num, qn_int den);

@@ -4,7 +4,7 @@
    formula cancels. s = floor(2^k sqrt d) gives s <= 2^k sqrt d < s + 1, so S 2^k lies in [|h| 2^k + s, |h| 2^k + s + 1).
    When both ends round to one double that is the answer; else they round to neighbours (the enclosure is 2^-GUARD_BITS
    wide, relatively) and the exact order of the root and the middle between them decides. */
-#include "number/quad.h"
+#include "number/quad_parts.h"
 
 #include <float.h>
 #include <math.h>
@@ -73,8 +73,7 @@ static double nearer(qn_ctx *ctx, qn_root x, int sign, double lo, double hi) {
   return order < 0 ? lo : order > 0 ? hi : m % 2 == 0 ? lo : hi;
 }
 
-/* A positive multiple of the numerator and denominator of a rational root; 0 when the root is of a quadratic with two. */
-static int rational_parts(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den) {
+int qn_root_plain_(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den) {
   const qn_quad *q = x.q;
   if (q->sign_a == 0) {
     *num = qn_int_neg(q->c.v);
@@ -133,13 +132,13 @@ double qn_rat_to_double(qn_ctx *ctx, qn_int num, qn_int den) {
 double qn_root_to_double(qn_ctx *ctx, qn_root x) {
   qn_mark mark = qn_arena_mark(&ctx->arena);
   qn_int num, den;
-  double v = rational_parts(ctx, x, &num, &den) ? with_sign(qn_int_sign(num), ratio(ctx, qn_int_abs(num), den)) : two_to_double(ctx, x);
+  double v = qn_root_plain_(ctx, x, &num, &den) ? with_sign(qn_int_sign(num), ratio(ctx, qn_int_abs(num), den)) : two_to_double(ctx, x);
   qn_arena_release(&ctx->arena, mark);
   return v;
 }
 
 int qn_root_rational(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den) {
-  if (rational_parts(ctx, x, num, den)) {
+  if (qn_root_plain_(ctx, x, num, den)) {
     return 1;
   }
   int square = 0;
@@ -156,10 +155,9 @@ int qn_root_rational(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den) {
   return 1;
 }
 
-/* An integer within 2 of the root times 2^k. */
-static qn_int root_scaled(qn_ctx *ctx, qn_root x, size_t k) {
+qn_int qn_root_scaled_(qn_ctx *ctx, qn_root x, size_t k) {
   qn_int num, den, quotient, rest;
-  if (rational_parts(ctx, x, &num, &den)) {
+  if (qn_root_plain_(ctx, x, &num, &den)) {
     num = qn_int_shl(ctx, num, k);
   } else {
     int square;
@@ -184,7 +182,7 @@ void qn_root_between(qn_ctx *ctx, qn_root x, qn_root y, qn_int *num, qn_int *den
   x.q = &p;
   y.q = &q;
   for (size_t k = 3; !ctx->failed; k *= 2) { /* ends: distinct roots are some distance apart */
-    qn_int sum = qn_int_add(ctx, root_scaled(ctx, x, k), root_scaled(ctx, y, k));
+    qn_int sum = qn_int_add(ctx, qn_root_scaled_(ctx, x, k), qn_root_scaled_(ctx, y, k));
     *num = sum;
     *den = qn_int_shl(ctx, qn_int_from(ctx, 1), k + 1);
     if (qn_root_cmp_rat(ctx, x, *num, *den) < 0 && qn_root_cmp_rat(ctx, y, *num, *den) > 0) {
@@ -194,11 +192,11 @@ void qn_root_between(qn_ctx *ctx, qn_root x, qn_root y, qn_int *num, qn_int *den
 }
 
 void qn_root_below(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den) {
-  *num = qn_int_sub(ctx, root_scaled(ctx, x, 0), qn_int_from(ctx, 3));
+  *num = qn_int_sub(ctx, qn_root_scaled_(ctx, x, 0), qn_int_from(ctx, 3));
   *den = qn_int_from(ctx, 1);
 }
 
 void qn_root_above(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den) {
-  *num = qn_int_add(ctx, root_scaled(ctx, x, 0), qn_int_from(ctx, 3));
+  *num = qn_int_add(ctx, qn_root_scaled_(ctx, x, 0), qn_int_from(ctx, 3));
   *den = qn_int_from(ctx, 1);
 }

@@ -4,11 +4,11 @@
    Legend: y = o - pivot + t d; a leaf's half-space q <= 0 has its gradient outward of the leaf: a plane's n, a quadric's
    2 sum s_i X_i row_i + 2 l row_2, a superquadric's by the chain rule. Where the leaf is taken away (its literal is negated) the solid's
    outward normal is the other way. */
-#include "query/work.h"
+#include "query/look.h"
 
 #include <math.h>
 
-static void gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]) {
+void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]) {
   g[0] = g[1] = g[2] = 0;
   if (half->kind == QN_PLANE) {
     for (int j = 0; j < 3; j++) {
@@ -43,20 +43,20 @@ static void unit(double g[3], double way) {
   g[0] = x * scale + 0.0, g[1] = y * scale + 0.0, g[2] = z * scale + 0.0; /* no negative zeros */
 }
 
-static quoin_status describe(quoin_work *work, const quoin_ray *ray, qn_line *line, const qn_stop *stop, int leaving, quoin_hit *out) {
+/* t: correctly rounded; index: the half-space, in scene->halves, of the leaf `part`. */
+static quoin_status describe(quoin_work *work, const quoin_ray *ray, double t, uint32_t part, uint32_t index, int leaving, quoin_hit *out) {
   const quoin_scene *scene = work->scene;
-  const qn_leaf *leaf = &scene->leaves[stop->leaf];
-  const qn_half *half = &scene->halves[stop->half];
-  *out = (quoin_hit){.found = 1, .leaving = leaving, .part = stop->leaf, .role = half->role};
-  out->t = qn_place_round(scene, work->scratch, line, &stop->place);
+  const qn_leaf *leaf = &scene->leaves[part];
+  const qn_half *half = &scene->halves[index];
+  *out = (quoin_hit){.found = 1, .leaving = leaving, .part = part, .role = half->role, .t = t};
   double y[3];
   for (int i = 0; i < 3; i++) {
     out->point[i] = ray->o[i] + out->t * ray->d[i];
     y[i] = (ray->o[i] - leaf->pivot[i]) + out->t * ray->d[i];
   }
-  gradient(scene, half, y, out->normal);
+  qn_half_gradient(scene, half, y, out->normal);
   unit(out->normal, leaf->negated ? -1 : 1);
-  const qn_local *local = qn_query_local(work, stop->leaf);
+  const qn_local *local = qn_query_local(work, part);
   if (!local) {
     return QUOIN_E_MEMORY;
   }
@@ -102,16 +102,48 @@ quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const q
   if (stop->leaf == UINT32_MAX) {
     return QUOIN_OK; /* inside all along */
   }
-  status = describe(work, ray, &line, stop, leaving, out);
+  const double t = qn_place_round(scene, work->scratch, &line, &stop->place);
+  status = describe(work, ray, t, stop->leaf, stop->half, leaving, out);
   return status == QUOIN_OK ? qn_scratch_ctx(work->scratch)->failed : status;
 }
 
+static int is_ray(const quoin_ray *ray) {
+  double all = 0, any = 0;
+  for (int i = 0; i < 3; i++) {
+    all += ray->o[i] * 0 + ray->d[i] * 0;
+    any += fabs(ray->d[i]) > 0;
+  }
+  return all == 0 && any > 0 && ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL;
+}
+
+/* Rays go through packets, a run of QN_LANES at a time; a hit on a surface that one part alone has needs no more than its
+   parameter and surface. */
 quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out) {
   if (!scene || !work || work->scene != scene || (n != 0 && (!rays || !out))) {
     return QUOIN_E_ARGUMENT;
   }
-  for (size_t i = 0; i < n; i++) {
-    quoin_status status = quoin_first_hit(scene, work, &rays[i], &out[i]);
+  qn_seen seen[QN_LANES];
+  for (size_t at = 0; at < n; at += QN_LANES) {
+    size_t count = n - at < QN_LANES ? n - at : QN_LANES;
+    for (size_t i = at; i < at + count; i++) {
+      if (!is_ray(&rays[i])) {
+        return QUOIN_E_ARGUMENT;
+      }
+    }
+    quoin_status status = qn_look(work, count, rays + at, NULL, QN_LOOK_T | QN_LOOK_PART, seen);
+    for (size_t i = 0; status == QUOIN_OK && i < count; i++) {
+      quoin_hit *hit = &out[at + i];
+      *hit = (quoin_hit){.part = QUOIN_NO_PART};
+      if (seen[i].surface == QUOIN_NO_SURFACE) {
+        continue;
+      }
+      const qn_leaf *leaf = &scene->leaves[seen[i].leaf];
+      uint32_t half = leaf->half0;
+      while (half + 1 < leaf->half0 + leaf->halves && scene->halves[half].surface != seen[i].surface) {
+        half++;
+      }
+      status = describe(work, &rays[at + i], seen[i].t, seen[i].leaf, half, seen[i].leaving, hit);
+    }
     if (status != QUOIN_OK) {
       return status;
     }

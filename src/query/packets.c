@@ -1,13 +1,16 @@
-/* Rays in packets: a grid's rays, 8 by 8, through the wide body that this machine runs; a ray that it gives up is woven. */
-#include "query/work.h"
-#include "wide/packet.h"
+/* Rays in packets: 64 at a time through the wide body that this machine runs; a ray that it gives up is woven. */
+#include "query/look.h"
 
 #include <math.h>
 
+static quoin_ray ray_of(const qn_packet *p, unsigned lane) {
+  return (quoin_ray){{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
+}
+
 /* One ray by the woven path. */
-static quoin_status spot_woven(quoin_work *work, const quoin_ray *ray, quoin_spot *out) {
+static quoin_status look_woven(quoin_work *work, const quoin_ray *ray, unsigned want, qn_seen *out) {
   const quoin_scene *scene = work->scene;
-  *out = (quoin_spot){.surface = QUOIN_NO_SURFACE};
+  *out = (qn_seen){.surface = QUOIN_NO_SURFACE};
   qn_query_begin(work);
   qn_line line;
   qn_line_from_doubles(ray->o, ray->d, &line);
@@ -21,134 +24,147 @@ static quoin_status spot_woven(quoin_work *work, const quoin_ray *ray, quoin_spo
   int leaving = first->enter.leaf == UINT32_MAX;
   const qn_stop *stop = leaving ? &first->leave : &first->enter;
   if (stop->leaf != UINT32_MAX) {
-    out->surface = scene->halves[stop->half].surface;
-    out->leaving = (uint32_t)leaving;
-    out->t = qn_place_round(scene, work->scratch, &line, &stop->place);
+    *out = (qn_seen){.t = stop->place.t, .surface = scene->halves[stop->half].surface, .leaf = stop->leaf, .leaving = (uint8_t)leaving};
+    if (want & QN_LOOK_T) {
+      out->t = qn_place_round(scene, work->scratch, &line, &stop->place);
+    }
   }
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-static quoin_status round_t(quoin_work *work, const quoin_ray *ray, const qn_packet_hits *hits, unsigned lane, quoin_spot *out) {
+static quoin_status round_t(quoin_work *work, const quoin_ray *ray, const qn_packet_hits *hits, unsigned lane, double *t) {
   qn_query_begin(work);
   qn_line line;
   qn_line_from_doubles(ray->o, ray->d, &line);
   const qn_place place = {.t = hits->t[lane], .e = hits->error[lane], .surface = hits->surface[lane], .which = (int)(hits->far_end >> lane & 1)};
-  out->t = qn_place_round(work->scene, work->scratch, &line, &place);
+  *t = qn_place_round(work->scene, work->scratch, &line, &place);
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* Column and row of a lane within its tile (wide/packet.h). */
-static unsigned column_of(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
-static unsigned row_of(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
-
-static int finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
-
-/* What all tiles of a grid share. Returns 0 when the shared vector is not one for rays. */
-static int fill_shared(const quoin_grid *g, qn_packet *p) {
-  const double *same = g->converging ? g->o : g->d;
-  for (unsigned lane = 0; lane < QN_LANES; lane++) {
-    for (int k = 0; k < 3; k++) {
-      (g->converging ? p->o : p->d)[k][lane] = same[k];
-    }
-    p->from[lane] = g->from, p->to[lane] = g->to;
-  }
-  p->new_origins = p->new_directions = 1;
-  return finite3(g->o) && finite3(g->u) && finite3(g->v) && finite3(g->d) && (g->converging || g->d[0] != 0 || g->d[1] != 0 || g->d[2] != 0);
+/* The lanes whose leaf is not the question's answer: parts share the surface, and which of them it is is wanted. */
+static int must_be_named(const quoin_scene *scene, uint32_t surface, unsigned want) {
+  const qn_surface *s = &scene->surfaces[surface];
+  return s->users > 1 && ((want & QN_LOOK_PART) || ((want & QN_LOOK_MATERIAL) && s->materials_differ));
 }
 
-/* Fills in the tile at (x, y); lanes past the edges repeat the last column and row. Returns 0 when a ray is not one (a direction
-   that is zero, or numbers beyond doubles). */
-static int fill_tile(const quoin_grid *g, size_t x, size_t y, size_t x1, size_t y1, qn_packet *p) {
-  unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
-  double s[8], r[8];
-  for (unsigned i = 0; i < 8; i++) {
-    s[i] = ((double)(x + (i < columns ? i : columns - 1)) + 0.5) / (double)g->width;
-    r[i] = ((double)(y + (i < rows ? i : rows - 1)) + 0.5) / (double)g->height;
-  }
-  const double *base = g->converging ? g->d : g->o;
-  double(*to)[QN_LANES] = g->converging ? p->d : p->o;
-  int finite = 1, through_zero = g->converging;
-  for (int k = 0; k < 3; k++) {
-    double across[8], up[8];
-    for (unsigned i = 0; i < 8; i++) {
-      across[i] = base[k] + s[i] * g->u[k];
-      up[i] = r[i] * g->v[k];
-    }
-    for (unsigned q = 0; q < QN_LANES / 4; q++) { /* four lanes are two columns and two rows */
-      unsigned c = (q & 1) << 1 | (q >> 1 & 2) << 1, w = (q >> 1 & 1) << 1 | (q >> 2 & 2) << 1;
-      double *t = to[k] + 4 * q;
-      t[0] = across[c] + up[w], t[1] = across[c + 1] + up[w];
-      t[2] = across[c] + up[w + 1], t[3] = across[c + 1] + up[w + 1];
-    }
-    double corner[4] = {across[0] + up[0], across[7] + up[0], across[0] + up[7], across[7] + up[7]}; /* sums are monotone: the rest lies between */
-    int low = 0, high = 0;
-    for (int i = 0; i < 4; i++) {
-      finite &= isfinite(corner[i]) != 0;
-      low |= corner[i] <= 0, high |= corner[i] >= 0;
-    }
-    through_zero &= low && high;
-  }
-  p->live = columns == 8 && rows == 8 ? ~(uint64_t)0 : 0;
-  if (!p->live || through_zero) {
-    for (unsigned lane = 0; lane < QN_LANES; lane++) {
-      p->live |= (uint64_t)(column_of(lane) < columns && row_of(lane) < rows) << lane;
-      finite &= !through_zero || p->d[0][lane] != 0 || p->d[1][lane] != 0 || p->d[2][lane] != 0;
-    }
-  }
-  return finite;
-}
-
-quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, unsigned want,
-                             quoin_spot *out) {
-  if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height) {
-    return QUOIN_E_ARGUMENT;
-  }
-  qn_packet packet;
-  if (!fill_shared(grid, &packet) || !(grid->from <= grid->to && grid->from < HUGE_VAL && grid->to > -HUGE_VAL)) {
-    return QUOIN_E_ARGUMENT;
-  }
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES]) {
+  const quoin_scene *scene = work->scene;
   qn_counts *counts = qn_scratch_counts(work->scratch);
   qn_packet_hits hits;
-  for (size_t y = y0; y < y1; y += 8) {
-    for (size_t x = x0; x < x1; x += 8) {
-      if (!fill_tile(grid, x, y, x1, y1, &packet)) {
-        return QUOIN_E_ARGUMENT;
+  hits.found = 0, hits.unsure = packet->live;
+  if (scene->normal.made) {
+    qn_wide_counts wide = {0};
+    work->wide->first(scene, packet, &hits, &wide);
+    counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
+    counts->rays += (uint64_t)__builtin_popcountll(packet->live & ~hits.unsure);
+    counts->exact_rays += (uint64_t)__builtin_popcountll(hits.unsure);
+  }
+  uint64_t woven = hits.unsure;
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    out[lane].surface = QUOIN_NO_SURFACE;
+  }
+  for (uint64_t m = hits.found; m; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    out[lane] = (qn_seen){hits.t[lane], hits.surface[lane], hits.leaf[lane], (uint8_t)(hits.leaving >> lane & 1)};
+    if ((want & (QN_LOOK_PART | QN_LOOK_MATERIAL)) && must_be_named(scene, hits.surface[lane], want)) {
+      woven |= (uint64_t)1 << lane;
+    }
+  }
+  if (want & QN_LOOK_T) {
+    for (uint64_t m = hits.found & ~woven; m; m &= m - 1) {
+      unsigned lane = qn_trailing_zeros(m);
+      const quoin_ray ray = ray_of(packet, lane);
+      quoin_status status = round_t(work, &ray, &hits, lane, &out[lane].t);
+      if (status != QUOIN_OK) {
+        return status;
       }
-      hits.found = 0, hits.leaving = 0, hits.unsure = packet.live;
-      if (scene->normal.made) {
-        qn_wide_counts wide = {0};
-        work->wide->first(scene, &packet, &hits, &wide);
-        packet.new_origins = !grid->converging, packet.new_directions = grid->converging;
-        counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
-        counts->rays += QN_LANES - (uint64_t)__builtin_popcountll(hits.unsure | ~packet.live);
-      }
-      for (unsigned lane = 0; lane < QN_LANES; lane++) {
-        if (!(packet.live >> lane & 1)) {
-          continue;
-        }
-        quoin_spot *spot = &out[(y - y0 + row_of(lane)) * (x1 - x0) + (x - x0) + column_of(lane)];
-        if (hits.found >> lane & 1) {
-          *spot = (quoin_spot){hits.t[lane], hits.surface[lane], (uint32_t)(hits.leaving >> lane & 1)};
-          if (!(want & QUOIN_WANT_T)) {
-            continue;
-          }
-        } else if (!(hits.unsure >> lane & 1)) {
-          *spot = (quoin_spot){.surface = QUOIN_NO_SURFACE};
-          continue;
-        }
-        const quoin_ray ray = {{packet.o[0][lane], packet.o[1][lane], packet.o[2][lane]}, {packet.d[0][lane], packet.d[1][lane], packet.d[2][lane]}, grid->from, grid->to};
-        quoin_status status;
-        if (hits.found >> lane & 1) {
-          status = round_t(work, &ray, &hits, lane, spot);
-        } else {
-          counts->exact_rays++;
-          status = spot_woven(work, &ray, spot);
-        }
+    }
+  }
+  for (uint64_t m = woven; m; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    const quoin_ray ray = ray_of(packet, lane);
+    quoin_status status = look_woven(work, &ray, want, &out[lane]);
+    if (status != QUOIN_OK) {
+      return status;
+    }
+  }
+  return QUOIN_OK;
+}
+
+/* Whether a packet pays: directions agree in sign wherever they are not small, and within some tens of degrees. Rays that do not are
+   tens of times slower in a packet than alone. */
+static int go_together(const quoin_ray *rays, size_t n) {
+  double sum[3] = {0, 0, 0};
+  for (size_t i = 0; i < n; i++) {
+    const double *d = rays[i].d;
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++) {
+      sum[k] += d[k] / length;
+    }
+  }
+  /* The mean of unit vectors is as long as they are alike. */
+  return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2] > 0.9 * (double)(n * n);
+}
+
+quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
+  qn_packet packet;
+  for (size_t at = 0; at < n; at += QN_LANES) {
+    size_t count = n - at < QN_LANES ? n - at : QN_LANES;
+    if (count < 8 || !work->scene->normal.made || !go_together(rays + at, count)) {
+      for (size_t i = at; i < at + count; i++) {
+        quoin_status status = look_woven(work, &rays[i], want, &out[i]);
         if (status != QUOIN_OK) {
           return status;
         }
       }
+      continue;
+    }
+    for (size_t lane = 0; lane < QN_LANES; lane++) {
+      const quoin_ray *r = &rays[at + (lane < count ? lane : count - 1)];
+      for (int k = 0; k < 3; k++) {
+        packet.o[k][lane] = r->o[k], packet.d[k][lane] = r->d[k];
+      }
+      packet.from[lane] = r->from, packet.to[lane] = r->to;
+      packet.on[lane] = on ? on[at + (lane < count ? lane : count - 1)] : QUOIN_NO_SURFACE;
+    }
+    packet.live = count == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << count) - 1;
+    packet.new_origins = packet.new_directions = 1;
+    qn_seen seen[QN_LANES];
+    quoin_status status = qn_look_packet(work, &packet, want, seen);
+    if (status != QUOIN_OK) {
+      return status;
+    }
+    for (size_t i = 0; i < count; i++) {
+      out[at + i] = seen[i];
     }
   }
   return QUOIN_OK;
+}
+
+void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]) {
+  const qn_surface *s = &scene->surfaces[seen->surface];
+  const qn_leaf *leaf = &scene->leaves[s->leaf];
+  double y[3];
+  for (int i = 0; i < 3; i++) {
+    y[i] = (ray->o[i] - leaf->pivot[i]) + seen->t * ray->d[i];
+  }
+  qn_half_gradient(scene, &scene->halves[s->half], y, normal);
+  double size = 0, way = 0;
+  for (int i = 0; i < 3; i++) {
+    size = fmax(size, fabs(normal[i]));
+  }
+  if (!(size > 0) || !isfinite(size)) {
+    normal[0] = normal[1] = normal[2] = 0;
+    return;
+  }
+  double square = 0;
+  for (int i = 0; i < 3; i++) {
+    normal[i] /= size;
+    square += normal[i] * normal[i];
+    way += normal[i] * ray->d[i];
+  }
+  double scale = ((way > 0) == (seen->leaving != 0) ? 1 : -1) / sqrt(square); /* out of the solid: with the ray where it leaves */
+  for (int i = 0; i < 3; i++) {
+    normal[i] *= scale;
+  }
 }

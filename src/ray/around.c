@@ -72,7 +72,7 @@ typedef struct asking {
 
 static void set_leaf(asking *a, size_t i, int inside) {
   const qn_leaf *leaf = &a->scene->leaves[a->leaves[i].leaf];
-  if (a->inside[i] != inside) {
+  if (a->inside[i] != inside && leaf->gate != QN_NO_GATE) {
     a->inside[i] = (uint8_t)inside;
     a->value = qn_eval_change(a->eval, leaf->gate, inside != leaf->negated);
   }

@@ -36,7 +36,8 @@ void qn_cells_give(qn_cells *cells) {
       cells->full[i] = -1;
     }
   }
-  if (open > QN_CELLS_OPEN) {
+  cells->work += cells->n;
+  if (open > QN_CELLS_OPEN || cells->work > QN_CELLS_WORK) {
     cells->stop = cells->gave_up = 1;
   }
   while (!qn_cells_done(cells)) {

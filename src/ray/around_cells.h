@@ -51,15 +51,18 @@ typedef struct qn_cells {
   void *user;
   int stop;
   int gave_up;
+  size_t work; /* signs written */
 } qn_cells;
 
 /* Surfaces whose signs are open at once in one record: 2^12 fillings. Beyond it the list is given up, and whoever asked
    takes the point as undecided (design S6: boundary). */
 enum { QN_CELLS_OPEN = 12 };
+/* Signs written in one list, about: 160 planes through a point, a second of work. Beyond it the list is given up likewise. */
+#define QN_CELLS_WORK ((size_t)1 << 23)
 
 /* Calls emit for every cell next to P, some more than once. Where second-order forms do not tell whether a combination is
    realisable it is given too (docs/exactness.md lists where): what is given holds every cell, and equals the cells but in those places.
-   0: too many signs are open at once (QN_CELLS_OPEN). ctx->failed tells of failure. Cost: about n^3 products in the worst case. */
+   0: given up (QN_CELLS_OPEN, QN_CELLS_WORK). ctx->failed tells of failure. Cost: about n^3 products in the worst case. */
 int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user);
 
 /* --- forms and vectors (around_form.c) --- */

@@ -1,6 +1,6 @@
 /* Derivation of the errors (unit: 2^-253, relative). A mantissa cut to 256 bits loses less than 2^-255 relative: a quarter.
-   Product and quotient: errors add; their product, at most 2^150 2^-253 times either, and the rounding of these few sums in doubles are
-   covered by the factor GROW. Sum: absolute errors add; they are made relative by the centres' sizes, taken from the
+   Product and quotient: errors add; their product, at most 2^150 2^-253 times either, and the rounding of these few sums in
+   doubles are covered by the factor GROW. Sum: absolute errors add; they are made relative by the centres' sizes, taken from the
    top limbs (SIZE: off by under 2^-52, covered by GROW too). */
 #include "scene/ball.h"
 

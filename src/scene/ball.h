@@ -1,5 +1,5 @@
-/* Balls: numbers of 256 bits with a bound of their error, for composing maps and rows on the way to the double shadows. Far cheaper than
-   exact rationals, and precise enough that these are needed only where terms cancel.
+/* Balls: numbers of 256 bits with a bound of their error, for composing maps and rows on the way to the double shadows. Far
+   cheaper than exact rationals, and precise enough that these are needed only where terms cancel.
 
    Legend: a ball stands for an exact number x. Its centre is sign m 2^(e - 256), m four limbs with the top bit set, so that
    2^(e-1) <= |centre| < 2^e; |x - centre| <= err 2^-253 |centre|. sign = 0: x is exactly 0. err = 0: x is exactly the centre.
@@ -33,8 +33,8 @@ void qn_ball_sub(const qn_ball *a, const qn_ball *b, qn_ball *out);
 void qn_ball_mul(const qn_ball *a, const qn_ball *b, qn_ball *out);
 void qn_ball_div(const qn_ball *a, const qn_ball *b, qn_ball *out); /* b is not the exact 0 */
 
-/* The shadow of a known ball: its relative error is at most u (1 + 2^-40) (docs/bounds.md, QN_SHADOW); 0 for an exact zero; a size beyond
-   QN_SHADOW_LARGEST or under its inverse is given as that. */
+/* The shadow of a known ball: its relative error is at most u (1 + 2^-40) (docs/bounds.md, QN_SHADOW); 0 for an exact zero; a
+   size beyond QN_SHADOW_LARGEST or under its inverse is given as that. */
 double qn_ball_to_double(const qn_ball *a);
 
 #endif

@@ -24,7 +24,8 @@ enum {
 enum { LANES = 4 };
 typedef struct item { float min[LANES], max[LANES]; } item;
 typedef struct box { float min[LANES], max[LANES]; } box;
-typedef struct node { float min[3][QN_BVH_WIDE], max[3][QN_BVH_WIDE]; uint32_t child[QN_BVH_WIDE]; } node; /* qn_bvh_node without its alignment */
+/* qn_bvh_node without its alignment */
+typedef struct node { float min[3][QN_BVH_WIDE], max[3][QN_BVH_WIDE]; uint32_t child[QN_BVH_WIDE]; } node;
 typedef struct range { size_t begin, end; box bounds; } range;
 
 static const box EMPTY_BOX = {{INFINITY, INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY, -INFINITY}};

@@ -21,16 +21,19 @@ typedef struct qn_bvh {
   size_t item_count;
 } qn_bvh;
 
-/* Builds over n boxes (six doubles each: min xyz, max xyz) numbered 0 .. n-1 by `numbers`; surface area heuristic in bins, n log n, on up to `threads` threads,
-   the same tree for every number of threads. */
-QN_NODISCARD quoin_status qn_bvh_build(qn_bvh *bvh, qn_mem *mem, size_t n, const double (*boxes)[6], const uint32_t *numbers, unsigned threads);
+/* Builds over n boxes (six doubles each: min xyz, max xyz) numbered 0 .. n-1 by `numbers`; surface area heuristic in bins, n
+   log n, on up to `threads` threads, the same tree for every number of threads. */
+QN_NODISCARD quoin_status qn_bvh_build(qn_bvh *bvh, qn_mem *mem, size_t n, const double (*boxes)[6], const uint32_t *numbers,
+                                        unsigned threads);
 void qn_bvh_free(qn_bvh *bvh, qn_mem *mem);
 
 /* Calls visit for each leaf whose box the line o + t d, t in [from, to], may meet: every leaf it does meet, and few
    others. Conservative in spite of rounding (docs/bounds.md, QN_BOX_SLACK), also of the line: each of o and d may have been
    rounded to nearest (barring over- and underflow: 0 stands for 0), and so may from and to. Adds the nodes visited to *nodes. */
-void qn_bvh_line(const qn_bvh *bvh, const double o[3], const double d[3], double from, double to, void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes);
+void qn_bvh_line(const qn_bvh *bvh, const double o[3], const double d[3], double from, double to,
+                 void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes);
 /* The same for the point whose coordinates lie in [min, max] (an enclosure of it). */
-void qn_bvh_point(const qn_bvh *bvh, const double min[3], const double max[3], void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes);
+void qn_bvh_point(const qn_bvh *bvh, const double min[3], const double max[3], void (*visit)(void *user, uint32_t leaf),
+                  void *user, uint64_t *nodes);
 
 #endif

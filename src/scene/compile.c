@@ -1,9 +1,10 @@
-/* Compilation: one walk over the solid tree gives leaves with their shadows and the terms of the program; then terms are simplified,
-   what dropped out is taken away, equal surfaces are found, and the hierarchy is built.
+/* Compilation: one walk over the solid tree gives leaves with their shadows and the terms of the program; then terms are
+   simplified, what dropped out is taken away, equal surfaces are found, and the hierarchy is built.
 
    Complements are pushed down during the walk: below the second operand of a difference everything is negated, a union of
    negated things being a meet of them. A node with one child, or of the kind of the gate above it, adds no gate. */
 #include "scene/compile.h"
+#include "scene/rounding.h"
 
 #include "base/limits.h"
 #include "base/thread.h"
@@ -33,7 +34,8 @@ typedef struct walk {
 
 static int is_transform(const qn_node *n) {
   switch ((qn_node_kind)n->kind) {
-  case QN_NODE_TRANSLATE: case QN_NODE_ROTATE: case QN_NODE_ROTATE_AXIS: case QN_NODE_SCALE: case QN_NODE_MIRROR: case QN_NODE_MULTMATRIX:
+  case QN_NODE_TRANSLATE: case QN_NODE_ROTATE: case QN_NODE_ROTATE_AXIS: case QN_NODE_SCALE: case QN_NODE_MIRROR:
+  case QN_NODE_MULTMATRIX:
     return 1;
   case QN_NODE_UNION: case QN_NODE_DIFFERENCE: case QN_NODE_INTERSECTION: case QN_NODE_COLOR: case QN_NODE_NAME: case QN_NODE_LEAF:
     return 0;
@@ -60,7 +62,8 @@ static quoin_status add_term(qn_building *b, uint32_t parent, qn_term_kind kind,
   if (!qn_grow(b->mem, &b->terms, &b->term_capacity, b->term_count + 1)) {
     return QUOIN_E_MEMORY;
   }
-  b->terms[b->term_count] = (qn_term){.parent = parent, .leaf = leaf, .gate = QN_NO_GATE, .kind = (uint8_t)kind, .negated = (uint8_t)negated};
+  b->terms[b->term_count] = (qn_term){.parent = parent, .leaf = leaf, .gate = QN_NO_GATE, .kind = (uint8_t)kind,
+                                      .negated = (uint8_t)negated};
   *out = (uint32_t)b->term_count++;
   return QUOIN_OK;
 }
@@ -93,7 +96,8 @@ static quoin_status visit_leaf(walk *w, uint32_t node, uint32_t term, int negate
     return QUOIN_E_MEMORY;
   }
   qn_leaf *leaf = &s->leaves[s->leaf_count];
-  *leaf = (qn_leaf){.node = node, .material = material, .gate = QN_NO_GATE, .negated = (uint8_t)negated, .prim = (uint8_t)b->local.prim};
+  *leaf = (qn_leaf){.node = node, .material = material, .gate = QN_NO_GATE, .negated = (uint8_t)negated,
+                    .prim = (uint8_t)b->local.prim};
   leaf->bounded = (uint8_t)qn_leaf_box(b, leaf->min, leaf->max);
   qn_form_result result;
   status = qn_leaf_add(b, leaf, &result);
@@ -407,6 +411,7 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   quoin_model *model = s->model;
   for (size_t i = 0; i < s->surface_count; i++) {
     qn_exact_free(mem, atomic_load_explicit(&s->surfaces[i].exact, memory_order_relaxed));
+    qn_rounding_free(mem, atomic_load_explicit(&s->surfaces[i].rounding, memory_order_relaxed));
   }
   qn_free(mem, s->surfaces, s->surface_room * sizeof *s->surfaces);
   qn_free(mem, s->leaves, s->leaf_count * sizeof *s->leaves);

@@ -81,8 +81,8 @@ typedef struct qn_building {
 
 /* Makes the local half-spaces of a leaf in b->local. */
 QN_NODISCARD quoin_status qn_local_make(qn_building *b, uint32_t node);
-/* The box of the leaf whose half-spaces are in b->local, under the top map; infinite where it is not bounded or not certain. Returns
-   whether it is bounded. */
+/* The box of the leaf whose half-spaces are in b->local, under the top map; infinite where it is not bounded or not certain.
+   Returns whether it is bounded. */
 int qn_leaf_box(const qn_building *b, double min[3], double max[3]);
 /* Adds the leaf's half-spaces and shadows to the scene, and their keys. *result: QN_FORM_EMPTY under a singular map. */
 QN_NODISCARD quoin_status qn_leaf_add(qn_building *b, qn_leaf *leaf, qn_form_result *result);
@@ -95,8 +95,8 @@ void qn_keys_free(qn_building *b);
 
 /* --- parts.c: names and materials --------------------------------------------------------------------------------- */
 
-/* Material `inner` (a node's) seen from inside material `outer` (an index into the scene's); null: the default one, index 0 when it is
-   the first. UINT32_MAX: memory was refused. */
+/* Material `inner` (a node's) seen from inside material `outer` (an index into the scene's); null: the default one, index 0
+   when it is the first. UINT32_MAX: memory was refused. */
 uint32_t qn_material_under(qn_building *b, uint32_t outer, const qn_material *inner);
 void qn_materials_free(qn_building *b);
 /* Adds a name's text; its offset, UINT32_MAX when memory is refused or the texts are too long. */
@@ -105,7 +105,8 @@ uint32_t qn_name_of_leaf(qn_building *b, uint32_t node, size_t ordinal);
 
 /* --- simplify.c --------------------------------------------------------------------------------------------------- */
 
-/* Turns terms that cannot matter into constants: parts of a meet that are apart, complements out of reach. Gives the box of the solid. */
+/* Turns terms that cannot matter into constants: parts of a meet that are apart, complements out of reach. Gives the box of
+   the solid. */
 QN_NODISCARD quoin_status qn_simplify(qn_building *b, double min[3], double max[3]);
 
 /* --- identity.c --------------------------------------------------------------------------------------------------- */
@@ -115,14 +116,15 @@ QN_NODISCARD quoin_status qn_identify(qn_building *b);
 
 /* --- exact.c ------------------------------------------------------------------------------------------------------ */
 
-/* The exact form of a half-space given in world coordinates (not of a superquadric), primitive; *side: 1 when it is a positive multiple of the
-   half-space's own, else -1. Zero q everywhere when the context failed. */
+/* The exact form of a half-space given in world coordinates (not of a superquadric), primitive; *side: 1 when it is a positive
+   multiple of the half-space's own, else -1. Zero q everywhere when the context failed. */
 void qn_exact_of(qn_ctx *ctx, const qn_half_form *half, qn_exact_surface *out, int *side);
 void qn_exact_free(qn_mem *mem, qn_exact_surface *exact);
 /* The map from a node's own frame to the world: its ancestors' transforms composed. */
 void qn_path_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num map[12]);
 /* The exact half-spaces of a primitive's node under `map`. */
-qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves, size_t *count);
+qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves,
+                             size_t *count);
 /* Makes `form` (copied) the surface's exact form unless it has one; returns the one it has. */
 const qn_exact_surface *qn_scene_publish(const quoin_scene *scene, uint32_t surface, const qn_exact_surface *form, int *made);
 /* A copy in one block of its own. */

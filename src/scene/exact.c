@@ -1,7 +1,8 @@
 /* Exact forms in world coordinates, made from the tree when they are asked for.
 
-   Legend: q = sum_i s_i X_i^2 + 2 l X_2 + k with X_i = r_i.(x, y, z, w); so the coefficient of the product of coordinates a and b is
-   sum_i s_i r_ia r_ib, twice that when a and b differ, with l r_2a added to each of the two halves of (a, w) and k to w^2. */
+   Legend: q = sum_i s_i X_i^2 + 2 l X_2 + k with X_i = r_i.(x, y, z, w); so the coefficient of the product of coordinates a
+   and b is sum_i s_i r_ia r_ib, twice that when a and b differ, with l r_2a added to each of the two halves of (a, w) and k to
+   w^2. */
 #include "scene/compile.h"
 
 #include "base/limits.h"
@@ -141,7 +142,8 @@ void qn_path_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num ma
   }
 }
 
-qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves, size_t *count) {
+qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves,
+                             size_t *count) {
   const qn_node *n = &model->nodes[node];
   const qn_num *numbers = model->numbers + n->number0;
   size_t args = n->numbers - (n->flags & QN_NODE_PLACED ? 6 : 0);
@@ -168,7 +170,8 @@ const qn_exact_surface *qn_scene_publish(const quoin_scene *scene, uint32_t surf
   if (!mine) {
     return NULL;
   }
-  if (atomic_compare_exchange_strong_explicit(&scene->surfaces[surface].exact, &there, mine, memory_order_acq_rel, memory_order_acquire)) {
+  if (atomic_compare_exchange_strong_explicit(&scene->surfaces[surface].exact, &there, mine, memory_order_acq_rel,
+                                              memory_order_acquire)) {
     if (made) {
       *made = 1;
     }

@@ -1,8 +1,8 @@
-/* Fingerprints of surfaces: two numbers in doubles that equal surfaces share within QN_PRINT_ERROR, whatever pivot, frame, factor or
-   sign their half-spaces are written with. Only half-spaces with equal fingerprints are ever compared exactly.
+/* Fingerprints of surfaces: two numbers in doubles that equal surfaces share within QN_PRINT_ERROR, whatever pivot, frame,
+   factor or sign their half-spaces are written with. Only half-spaces with equal fingerprints are ever compared exactly.
 
-   Legend: c the ten coefficients in the scene's frame, which has its origin amid the leaves and 2^scale for a unit (A..F, G..I 2^-scale,
-   J 2^-2scale); w fixed weights in [0, 1].
+   Legend: c the ten coefficients in the scene's frame, which has its origin amid the leaves and 2^scale for a unit (A..F, G..I
+   2^-scale, J 2^-2scale); w fixed weights in [0, 1].
        f = (w.c)^2 / c.c
    f is the same for every multiple of c. Its error: docs/bounds.md, QN_PRINT_ERROR. A superquadric takes its rows in place of c. */
 #include "scene/fingerprint.h"

@@ -1,11 +1,11 @@
 /* Equal surfaces become one (design S2, S3).
 
-   Half-spaces are taken in order. An aligned plane is known by its key. Any other, and the first of each key, looks up those surfaces whose
-   fingerprints are within reach; for each of them the exact forms decide. A new surface gets the next number.
+   Half-spaces are taken in order. An aligned plane is known by its key. Any other, and the first of each key, looks up those
+   surfaces whose fingerprints are within reach; for each of them the exact forms decide. A new surface gets the next number.
 
    Exact forms are normalised (qn_exact_surface): rational ones are equal when their integers are. When a rounding of S2 went
-   into either, they are the same when their vectors c, d (space in units of the scene's size) agree: with i the place of the largest
-   |c_i|, |c_j d_i - d_j c_i| < 2^-200 |c_i d_i| for all j. */
+   into either, they are the same when their vectors c, d (space in units of the scene's size) agree: with i the place of the
+   largest |c_i|, |c_j d_i - d_j c_i| < 2^-200 |c_i d_i| for all j. */
 #include "scene/compile.h"
 
 #include "base/bounds.h"
@@ -415,8 +415,10 @@ static quoin_status add_surface(finder *f, const subject *s, uint32_t *surface) 
   scene->surfaces[n].leaf = s->leaf;
   scene->surfaces[n].half = s->half;
   scene->surfaces[n].users = 0;
+  scene->surfaces[n].materials_differ = 0;
   scene->surfaces[n].kind = scene->halves[s->half].kind;
   atomic_init(&scene->surfaces[n].exact, NULL);
+  atomic_init(&scene->surfaces[n].rounding, NULL);
   f->prints[n][0] = s->print[0];
   f->prints[n][1] = s->print[1];
   f->keys[n] = s->key;

@@ -12,7 +12,8 @@ typedef struct qn_key_table {
 } qn_key_table;
 
 static size_t slot_of(const place *p, size_t slot_count) {
-  uint64_t h = (uint64_t)p->at.u.m * 0x9E3779B97F4A7C15u ^ ((uint64_t)(uint16_t)p->at.a << 32 | (uint64_t)(uint16_t)p->at.b << 8 | p->axis) * 0xC2B2AE3D27D4EB4Fu;
+  uint64_t exponents = (uint64_t)(uint16_t)p->at.a << 32 | (uint64_t)(uint16_t)p->at.b << 8 | p->axis;
+  uint64_t h = (uint64_t)p->at.u.m * 0x9E3779B97F4A7C15u ^ exponents * 0xC2B2AE3D27D4EB4Fu;
   h ^= h >> 29;
   h *= 0xBF58476D1CE4E5B9u;
   return (size_t)(h >> 17) & (slot_count - 1);

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Errors of a composed map's balls, in units of 2^-253, beyond which it is taken from exact numbers anew: what is left, 2^-193, pays for a pivot's offset,
-   which cancels 53 bits and more. */
+/* Errors of a composed map's balls, in units of 2^-253, beyond which it is taken from exact numbers anew: what is left,
+   2^-193, pays for a pivot's offset, which cancels 53 bits and more. */
 #define RENEW 0x1p60
 
 static void identity(qn_num map[12]) {
@@ -240,7 +240,8 @@ static int translate(qn_maps *maps, const qn_composed *outer, qn_composed *c, ui
     while (qn_num_is_zero(outer->exact[4 * i + j])) {
       j++;
     }
-    place[i] = qn_num_add(&maps->scratch, outer->exact[4 * i + 3], outer->shift_only ? by[j] : qn_num_mul(&maps->scratch, outer->exact[4 * i + j], by[j]));
+    qn_num way = outer->shift_only ? by[j] : qn_num_mul(&maps->scratch, outer->exact[4 * i + j], by[j]);
+    place[i] = qn_num_add(&maps->scratch, outer->exact[4 * i + 3], way);
     if (place[i].kind != QN_NUM_SMALL) {
       return 0;
     }

@@ -31,7 +31,8 @@ static uint64_t hash_of(const qn_material *m) {
   return mix(mix(mix(mix(h, bits_of(m->ambient)), bits_of(m->diffuse)), bits_of(m->specular)), bits_of(m->shininess));
 }
 static int same(const qn_material *x, const qn_material *y) {
-  int equal = x->has == y->has && x->ambient == y->ambient && x->diffuse == y->diffuse && x->specular == y->specular && x->shininess == y->shininess;
+  int equal = x->has == y->has && x->ambient == y->ambient && x->diffuse == y->diffuse && x->specular == y->specular &&
+              x->shininess == y->shininess;
   for (int i = 0; i < 4; i++) {
     equal &= x->color[i] == y->color[i];
   }

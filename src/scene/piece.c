@@ -104,11 +104,13 @@ static int is_round(const quoin_scene *scene, uint32_t leaf, qn_piece_round *rou
 /* Every number of the leaf well within the range of doubles, and nothing that wide code does not know. */
 static int is_plain(const quoin_scene *scene, const qn_leaf *l) {
   double small = INFINITY, large = 0;
+  int planes = 0, bodies = 0;
   const double *numbers;
   for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
     const qn_half *h = &scene->halves[i];
     size_t count;
-    if (h->kind == QN_SUPER_BODY) {
+    planes += h->kind == QN_PLANE, bodies += h->kind != QN_PLANE;
+    if (h->kind == QN_SUPER_BODY || planes > QN_MEET_PLANES || bodies > QN_MEET_BODIES) {
       return 0;
     }
     if (h->kind == QN_PLANE) {
@@ -156,8 +158,19 @@ static size_t piece_of(const quoin_scene *scene, uint32_t leaf, void *line) {
   return 1;
 }
 
+static void compare_materials(quoin_scene *scene) {
+  for (size_t i = 0; i < scene->leaf_count; i++) {
+    const qn_leaf *l = &scene->leaves[i];
+    for (uint32_t h = l->half0; h < l->half0 + l->halves; h++) {
+      qn_surface *s = &scene->surfaces[scene->halves[h].surface];
+      s->materials_differ |= scene->leaves[s->leaf].material != l->material;
+    }
+  }
+}
+
 quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem) {
   const qn_normal *n = &scene->normal;
+  compare_materials(scene);
   scene->line_of = qn_alloc(mem, scene->leaf_count * sizeof *scene->line_of);
   if (!scene->line_of) {
     return QUOIN_E_MEMORY;

@@ -13,6 +13,9 @@ typedef enum qn_piece_kind {
   QN_PIECE_HARD    /* one line: not for wide code (superquadrics): every ray that meets its box is answered by the woven path */
 } qn_piece_kind;
 
+/* The most half-spaces of each kind in a meet. */
+enum { QN_MEET_PLANES = 20, QN_MEET_BODIES = 4 };
+
 typedef struct qn_piece_head {
   uint32_t kind;
   uint32_t leaf;

@@ -4,7 +4,8 @@
 
 /* --- making a program ------------------------------------------------------------------------------------------ */
 
-/* Settles constants, children before parents (they come later in prefix order). live[i]: children of gate i that are not constant. */
+/* Settles constants, children before parents (they come later in prefix order). live[i]: children of gate i that are not
+   constant. */
 static void fold(qn_term *terms, size_t count, uint32_t *live) {
   for (size_t i = count; i-- > 0;) {
     qn_term *t = &terms[i];

@@ -35,8 +35,8 @@ typedef struct qn_term {
   uint8_t negated;  /* of a LEAF: the literal is "outside the leaf" */
 } qn_term;
 
-/* Folds constants, flattens, and numbers the gates in prefix order. Writes terms[].gate, and may turn gates of the terms into constants.
-   Linear, no recursion. QUOIN_E_MEMORY or QUOIN_OK. */
+/* Folds constants, flattens, and numbers the gates in prefix order. Writes terms[].gate, and may turn gates of the terms into
+   constants. Linear, no recursion. QUOIN_E_MEMORY or QUOIN_OK. */
 QN_NODISCARD quoin_status qn_program_build(qn_program *program, qn_mem *mem, qn_term *terms, size_t count);
 void qn_program_free(qn_program *program, qn_mem *mem);
 
@@ -54,7 +54,8 @@ typedef struct qn_eval {
 QN_NODISCARD int qn_eval_init(qn_eval *eval, const qn_program *program, qn_mem *mem); /* 0 when memory is refused */
 void qn_eval_free(qn_eval *eval, qn_mem *mem);
 void qn_eval_reset(qn_eval *eval); /* every leaf outside again; cost: what was touched */
-/* The literal of a leaf at `gate` becomes true (+1) or false (-1). Returns the root's value after it. Cost: the gates that change. */
+/* The literal of a leaf at `gate` becomes true (+1) or false (-1). Returns the root's value after it. Cost: the gates that
+   change. */
 int qn_eval_change(qn_eval *eval, uint32_t gate, int to_true);
 
 #endif

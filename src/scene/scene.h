@@ -49,8 +49,10 @@ typedef struct qn_exact_surface {
 typedef struct qn_surface {
   uint32_t leaf, half;            /* a user: halves[half] of leaves[leaf] */
   uint32_t users;
+  uint8_t materials_differ;       /* its users are of several materials */
   uint8_t kind;
   _Atomic(qn_exact_surface *) exact; /* null until asked for */
+  _Atomic(struct qn_rounding *) rounding; /* likewise: scene/rounding.h */
 } qn_surface;
 
 struct quoin_scene {

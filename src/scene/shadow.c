@@ -1,9 +1,9 @@
 /* The one door of rounding: a leaf's exact half-spaces under its composed map become doubles relative to a pivot.
 
    Legend: M = [A | t], world x = A local + t. A local row (n, d) means X = n.local + d, in the world X = r.(x - t) + d with
-   r = n inverse(A); with y = x - p, p the pivot, X = r.y + b, b = r.(p - t) + d. p - t is small and has lost t's leading bits, so t is held to
-   192 bits and more; p is exact. Every number is rounded once, from a ball that is sure to 2^-103 or from the exact number
-   (docs/bounds.md, QN_SHADOW). */
+   r = n inverse(A); with y = x - p, p the pivot, X = r.y + b, b = r.(p - t) + d. p - t is small and has lost t's leading bits,
+   so t is held to 192 bits and more; p is exact. Every number is rounded once, from a ball that is sure to 2^-103 or from the
+   exact number (docs/bounds.md, QN_SHADOW). */
 #include "scene/compile.h"
 
 #include "base/bounds.h"
@@ -384,7 +384,8 @@ static int is_convex(const qn_half_form *h) {
 
 static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[3][4], qn_leaf *leaf) {
   quoin_scene *s = b->scene;
-  if (!qn_grow(b->mem, &s->halves, &b->half_capacity, s->half_count + 1) || !qn_grow(b->mem, &b->keys, &b->key_capacity, s->half_count + 1)) {
+  if (!qn_grow(b->mem, &s->halves, &b->half_capacity, s->half_count + 1) ||
+      !qn_grow(b->mem, &b->keys, &b->key_capacity, s->half_count + 1)) {
     return QUOIN_E_MEMORY;
   }
   qn_half *out = &s->halves[s->half_count];

@@ -3,13 +3,14 @@
    Legend. A term T has two boxes: in(T) holds the set T, out(T) holds its complement.
        leaf: in = its box.   its complement: out = its box.
        AND: in = meet of the children's in, out = hull of their out.   OR: the other way round.
-   The reach C(T) is where T's value can matter: all of space at the root; a child of AND: C(T) and in(T), for elsewhere the AND is false;
-   a child of OR: C(T) and out(T), for elsewhere the OR is true. A term whose in is apart from its reach is replaced by false, one
-   whose out is apart from it by true.
-   Why all replacements may be made at once. At least one of in(T) and out(T) is all of space (by induction: a meet with another in has
-   a child with another in, whose out is all of space; then so is the meet's). So a child of AND with a box in(T) never becomes true while its reach is not
-   nothing: replacements never let the set grow out of the old in(T), nor its complement out of the old out(T). A point outside in(T) is
-   then still outside T, which is what the reaches of the other children of an AND count on; and in its reach no term changes its value.
+   The reach C(T) is where T's value can matter: all of space at the root; a child of AND: C(T) and in(T), for elsewhere the
+   AND is false; a child of OR: C(T) and out(T), for elsewhere the OR is true. A term whose in is apart from its reach is
+   replaced by false, one whose out is apart from it by true.
+   Why all replacements may be made at once. At least one of in(T) and out(T) is all of space (by induction: a meet with
+   another in has a child with another in, whose out is all of space; then so is the meet's). So a child of AND with a box
+   in(T) never becomes true while its reach is not nothing: replacements never let the set grow out of the old in(T), nor its
+   complement out of the old out(T). A point outside in(T) is then still outside T, which is what the reaches of the other
+   children of an AND count on; and in its reach no term changes its value.
    Boxes that touch are not apart: the test is strict, and boxes are rounded outward. */
 #include "scene/compile.h"
 
@@ -95,7 +96,8 @@ static void gather(const qn_building *b, const uint32_t *place, both *gates) {
   }
 }
 
-/* Replaces terms by constants, from the root down; reach[place[i]] is the reach of the children of gate term i. Returns how many. */
+/* Replaces terms by constants, from the root down; reach[place[i]] is the reach of the children of gate term i. Returns how
+   many. */
 static size_t replace(qn_building *b, const uint32_t *place, const both *gates, box *reach) {
   size_t replaced = 0;
   for (size_t i = 0; i < b->term_count; i++) {

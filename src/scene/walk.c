@@ -96,8 +96,8 @@ static size_t push_children(const qn_bvh *bvh, const qn_bvh_node *n, unsigned me
   return top;
 }
 
-void qn_bvh_line(const qn_bvh *bvh, const double o[3], const double d[3], double from, double to, void (*visit)(void *user, uint32_t leaf), void *user,
-                 uint64_t *nodes) {
+void qn_bvh_line(const qn_bvh *bvh, const double o[3], const double d[3], double from, double to,
+                 void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes) {
   if (bvh->node_count == 0) {
     return;
   }
@@ -128,7 +128,8 @@ void qn_bvh_line(const qn_bvh *bvh, const double o[3], const double d[3], double
   *nodes += seen;
 }
 
-void qn_bvh_point(const qn_bvh *bvh, const double min[3], const double max[3], void (*visit)(void *user, uint32_t leaf), void *user, uint64_t *nodes) {
+void qn_bvh_point(const qn_bvh *bvh, const double min[3], const double max[3], void (*visit)(void *user, uint32_t leaf),
+                  void *user, uint64_t *nodes) {
   if (bvh->node_count == 0) {
     return;
   }

@@ -39,7 +39,8 @@ int qn_parse_depth(qn_parser *p) {
     return 1;
   }
   if (!p->failed) {
-    qn_tell(p->reporter, QN_Q0901, p->lexer.token.offset, p->lexer.token.length, "at most 200000 levels are read", NULL, "nested too deeply");
+    qn_tell(p->reporter, QN_Q0901, p->lexer.token.offset, p->lexer.token.length, "at most 200000 levels are read", NULL,
+            "nested too deeply");
     p->failed = QUOIN_E_LIMIT;
   }
   return 0;

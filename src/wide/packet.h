@@ -15,6 +15,7 @@ enum { QN_LANES = 64 };
 typedef struct qn_packet {
   _Alignas(64) double o[3][QN_LANES], d[3][QN_LANES]; /* d finite, not the zero vector */
   _Alignas(64) double from[QN_LANES], to[QN_LANES];
+  uint32_t on[QN_LANES]; /* the surface that the place at `from` lies on, where that is known; else UINT32_MAX */
   uint64_t live; /* lanes in use; the others' numbers are finite all the same */
   /* What the body derives from the rays. Whoever fills a packet says what is new: a tile that keeps its origins or its
      directions keeps what follows from them. */

@@ -38,11 +38,11 @@ static float up(double v) {
 static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd px, vd py, unsigned *equal) {
   _Alignas(64) double x[QN_W], y[QN_W];
   vstore(x, px), vstore(y, py);
-  const uint64_t who = QN_LARGER_ROOT | 0xffffffffu;
   for (int i = 0; i < QN_W; i++) {
     if (near >> i & 1) {
       uint64_t a, b;
       memcpy(&a, &x[i], 8), memcpy(&b, &y[i], 8);
+      const uint64_t who = (a | b) & QN_STARTS_ON ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
       if ((a & who) == (b & who)) {
         *equal |= 1u << i;
       } else {
@@ -117,14 +117,47 @@ QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
 
 /* --- one term ------------------------------------------------------------------------------------------------------ */
 
+/* Of a meet: its half-spaces' constants, planes first, since they settle which side of a body that opens counts. */
+typedef struct meet_constants {
+  int planes, bodies;
+  plane_constants plane[QN_MEET_PLANES];
+  body_constants body[QN_MEET_BODIES];
+} meet_constants;
+
 typedef union piece_constants {
   sphere_constants sphere;
   box_constants box;
   struct { plane_constants cap[2]; body_constants body; } round;
+  meet_constants meet;
 } piece_constants;
 
 static const qn_piece_head *piece_at(const walk *w, uint32_t leaf) {
   return (const qn_piece_head *)(const void *)((const char *)w->scene->lines + (size_t)w->scene->line_of[leaf] * 64);
+}
+
+static void meet_prepare(const walk *w, uint32_t leaf, meet_constants *k) {
+  const struct quoin_scene *scene = w->scene;
+  const qn_leaf *l = &scene->leaves[leaf];
+  k->planes = k->bodies = 0;
+  for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
+    const qn_half *half = &scene->halves[i];
+    if (half->kind == QN_PLANE) {
+      const qn_plane_shadow *p = &scene->planes[half->shadow];
+      plane_prepare(&w->f, l->pivot, p->n, p->d, half->surface, leaf, &k->plane[k->planes++]);
+      continue;
+    }
+    const qn_quadric_shadow *q = &scene->quadrics[half->shadow];
+    double reach = 0; /* of what lies in the leaf's box and the solid's: no more of it matters */
+    for (int r = 0; r < 3; r++) {
+      double size = fabs(q->row[r][3]);
+      for (int j = 0; j < 3; j++) {
+        double low = most(l->min[j], scene->min[j]), high = least(l->max[j], scene->max[j]);
+        size += fabs(q->row[r][j]) * most(fabs(low - l->pivot[j]), fabs(high - l->pivot[j]));
+      }
+      reach += size * size;
+    }
+    body_prepare(&w->f, l->pivot, q->row, q->s, q->l, q->k, sqrt(reach) * (1 + 0x1p-40), half->surface, leaf, &k->body[k->bodies++]);
+  }
 }
 
 static void piece_prepare(const walk *w, const qn_piece_head *head, piece_constants *k) {
@@ -141,7 +174,8 @@ static void piece_prepare(const walk *w, const qn_piece_head *head, piece_consta
     body_prepare(&w->f, r->pivot, r->row, r->s, r->l, r->k, r->reach, r->surface[0], head->leaf, &k->round.body);
     break;
   }
-  case QN_PIECE_MEET: case QN_PIECE_HARD: break;
+  case QN_PIECE_MEET: meet_prepare(w, head->leaf, &k->meet); break;
+  case QN_PIECE_HARD: break;
   }
 }
 
@@ -157,38 +191,15 @@ QN_INLINE stretch whole_line(void) {
   return (stretch){.a = vset(-QN_FAR), .b = vset(QN_FAR), .pa = nobody, .pb = nobody, .error = vset(0), .hit = vmask(QN_ALL_BITS), .unsure = vmask(0)};
 }
 
-static QN_NOINLINE stretch meet_solve(const walk *w, uint32_t leaf, int g) {
-  const struct quoin_scene *scene = w->scene;
-  const qn_leaf *l = &scene->leaves[leaf];
+static stretch meet_solve(const walk *w, const meet_constants *k, uint32_t leaf, int g) {
   stretch s = whole_line();
   vd y[3], d[3];
-  from_pivot(w->f.p, g * QN_W, l->pivot, y, d);
-  for (int kind = QN_PLANE; kind <= QN_QUADRIC_BODY; kind++) { /* planes first: they settle which side of a body that opens counts */
-    for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
-      const qn_half *half = &scene->halves[i];
-      if (half->kind != kind) {
-        continue;
-      }
-      if (kind == QN_PLANE) {
-        const qn_plane_shadow *p = &scene->planes[half->shadow];
-        plane_constants k;
-        plane_prepare(&w->f, l->pivot, p->n, p->d, half->surface, leaf, &k);
-        plane_meet(&w->f, &k, y, d, &s);
-      } else {
-        const qn_quadric_shadow *q = &scene->quadrics[half->shadow];
-        body_constants k;
-        double reach = 0;
-        for (int r = 0; r < 3; r++) {
-          double size = fabs(q->row[r][3]);
-          for (int j = 0; j < 3; j++) {
-            size += fabs(q->row[r][j]) * most(fabs(l->min[j] - l->pivot[j]), fabs(l->max[j] - l->pivot[j]));
-          }
-          reach += size * size;
-        }
-        body_prepare(&w->f, l->pivot, q->row, q->s, q->l, q->k, sqrt(reach), half->surface, leaf, &k);
-        body_meet(&w->f, &k, y, d, &s);
-      }
-    }
+  from_pivot(w->f.p, g * QN_W, w->scene->leaves[leaf].pivot, y, d);
+  for (int i = 0; i < k->planes; i++) {
+    plane_meet(&w->f, &k->plane[i], y, d, &s);
+  }
+  for (int i = 0; i < k->bodies; i++) {
+    body_meet(&w->f, &k->body[i], y, d, &s);
   }
   stretch_settle(&s);
   return s;
@@ -212,7 +223,7 @@ QN_INLINE stretch piece_solve(const walk *w, const qn_piece_head *head, const pi
     stretch_settle(&s);
     return s;
   }
-  case QN_PIECE_MEET: return meet_solve(w, head->leaf, g);
+  case QN_PIECE_MEET: return meet_solve(w, &k->meet, head->leaf, g);
   case QN_PIECE_HARD: break;
   }
   stretch s = whole_line();
@@ -241,9 +252,10 @@ typedef struct ends { _Alignas(64) double a[QN_LANES], b[QN_LANES], pa[QN_LANES]
 static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out) {
   const uint32_t *leaves = w->normal->leaves + t->leaf0;
   uint64_t hits = 0;
-  piece_constants k[2]; /* of the first pieces; the others are prepared group by group */
-  const qn_piece_head *head[2] = {0};
-  for (uint32_t i = 0; i < t->leaves && i < 2; i++) {
+  enum { READY = 4 };
+  piece_constants k[READY]; /* of the first pieces; the others are prepared group by group */
+  const qn_piece_head *head[READY];
+  for (uint32_t i = 0; i < t->leaves && i < READY; i++) {
     head[i] = piece_at(w, leaves[i]);
     piece_prepare(w, head[i], &k[i]);
   }
@@ -256,11 +268,11 @@ static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out)
     stretch s = t->leaves ? piece_solve(w, head[0], &k[0], g) : whole_line();
     for (uint32_t i = 1; i < t->leaves; i++) {
       piece_constants other;
-      const qn_piece_head *h = i < 2 ? head[i] : piece_at(w, leaves[i]);
-      if (i >= 2) {
+      const qn_piece_head *h = i < READY ? head[i] : piece_at(w, leaves[i]);
+      if (i >= READY) {
         piece_prepare(w, h, &other);
       }
-      stretch o = piece_solve(w, h, i < 2 ? &k[i] : &other, g);
+      stretch o = piece_solve(w, h, i < READY ? &k[i] : &other, g);
       stretch_meet(w, g, &s, &o);
     }
     double *tolerance = w->tolerance + g * QN_W;
@@ -677,15 +689,18 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   const vd none = vset(nobody);
   for (int j = 0; j < QN_LANES; j += QN_W) {
     vstore(w.tolerance + j, vset(0));
-    vstore(start.t + j, vmax(vload(packet->from + j), vset(-QN_FAR))), vstore(start.p + j, none);
+    vstore(start.t + j, vmax(vload(packet->from + j), vset(-QN_FAR)));
     vstore(best.t + j, vmin(vload(packet->to + j), vset(QN_FAR))), vstore(best.p + j, none);
+  }
+  for (int j = 0; j < QN_LANES; j++) {
+    start.p[j] = payload_bits(packet->on[j] | QN_STARTS_ON);
   }
   uint64_t mask = packet->live, leaving = 0;
   uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
   for (uint64_t m = found; m; m &= m - 1) {
     unsigned k = qn_trailing_zeros(m);
-    within |= (uint64_t)!memcmp(&best.p[k], &nobody, 8) << k;
+    within |= (uint64_t)!memcmp(&best.p[k], &start.p[k], 8) << k;
   }
   if (within) {
     lanes at = start;

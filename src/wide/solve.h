@@ -22,6 +22,7 @@ enum { QN_GROUPS = QN_LANES / QN_W };
 /* A payload is the surface (low half), the leaf, and in the top bit whether it is the larger of the surface's two roots; it
    travels in the lanes of a vd as bits, moved and never computed with. */
 #define QN_LARGER_ROOT ((uint64_t)1 << 63)
+#define QN_STARTS_ON ((uint64_t)1 << 62) /* the place where a ray starts on a surface: it equals either root there */
 QN_INLINE double payload_bits(uint64_t payload) {
   double d;
   memcpy(&d, &payload, sizeof d);

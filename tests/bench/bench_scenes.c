@@ -15,8 +15,8 @@
 
 static const char USAGE[] =
     "usage: bench_scenes MODEL.csg CAMERA [options]\n"
-    "  --paths A,B     only these (tiles rows single intervals intervals-single intervals-exact shadow shadow-single random random-single\n"
-    "                  points points-single); default all\n"
+    "  --paths A,B     only these (single rows tiles grid-t grid intervals-single intervals intervals-exact shadow-single shadow\n"
+    "                  random-single random points-single points); default all\n"
     "  --size N        the grid is N x N; default the camera file's\n"
     "  --seconds S     time for each path and round; default 0.3\n"
     "  --rounds N      rounds, of which the median is given; default 3\n"
@@ -48,7 +48,7 @@ typedef struct bench {
   size_t judged_blocks; /* of each path */
 } bench;
 
-typedef struct verdict { size_t judged, wrong, oracle_judged, oracle_wrong, oracle_skipped; } verdict;
+typedef struct verdict { size_t judged, wrong, oracle_judged, oracle_wrong; } verdict;
 
 /* --- the order of blocks: every place alike when a path has no time for all ---------------------------------------------------- */
 
@@ -64,11 +64,75 @@ static size_t *shuffled(size_t n, uint64_t seed) {
 
 /* --- judging --------------------------------------------------------------------------------------------------------- */
 
-/* Answers of the first path with a question about some rays; others are compared with it. */
-typedef struct reference { path_answer *answers; int there; size_t blocks; } reference;
+/* What the oracle says of one ray or point of a judged block. */
+typedef struct sample { size_t block, place; uint64_t places; double t; uint32_t count; } sample;
 
-static int judge(bench *b, const path *p, reference *ref, path_lane *lane, verdict *out) {
+/* For one question about some rays: answers of the first path that was asked, which others must equal, and the oracle's. */
+typedef struct reference {
+  path_answer *answers; /* of `blocks` blocks */
+  size_t blocks;
+  sample *samples;
+  size_t sample_count;
+} reference;
+
+/* What the oracle says of ray k in lane->rays, or point k of the block; 0 when it does not judge it. */
+static int ask_oracle(bench *b, const path *p, const path_lane *lane, size_t block, size_t k, sample *out) {
+  if (p->question == ASK_SIDES) {
+    int side = oracle_point(b->oracle, b->job.lists.points + 3 * (block * BLOCK + k));
+    out->place = k;
+    out->places = (uint64_t)side;
+    out->t = 0;
+    out->count = 1;
+    return side >= 0;
+  }
+  static oracle_interval found[MOST_STRETCHES];
+  int zero; /* the directions of rays with the filter off are multiples of the camera's, and their answers are scaled back */
+  const double *d = p->rays == RAYS_CAMERA ? b->camera.d : lane->rays[k].d;
+  long n = oracle_ray(b->oracle, lane->rays[k].o, d, MOST_STRETCHES, found, &zero);
+  out->place = lane->place[k];
+  out->places = PATH_NO_PLACES;
+  int first = p->question == ASK_HITS || p->question == ASK_SPOTS;
+  out->count = first ? n > 0 : (uint32_t)n;
+  out->t = first && n > 0 ? zero ? found[0].leave : found[0].enter : INFINITY;
+  if (first && n > 0) {
+    path_places(&out->places, out->t);
+  }
+  for (long i = 0; p->question == ASK_INTERVALS && i < n && i < MOST_STRETCHES; i++) {
+    path_places(&out->places, found[i].enter);
+    path_places(&out->places, found[i].leave);
+  }
+  return n >= 0 && n <= MOST_STRETCHES;
+}
+
+/* Rays drawn from the judged blocks, until --oracle of them are there or five seconds have passed. */
+static int draw_samples(bench *b, const path *p, reference *ref, path_lane *lane, const size_t *order) {
+  uint64_t state = 2;
+  double begin = bench_now();
+  ref->samples = calloc(b->opt.oracle + 1, sizeof *ref->samples);
+  for (size_t s = 0; ref->samples && b->oracle && s < b->opt.oracle && bench_now() - begin < 5; s++) {
+    sample *one = &ref->samples[ref->sample_count];
+    one->block = bench_u64(&state) % ref->blocks;
+    path_answer again[BLOCK];
+    lane->answers = again;
+    size_t count = p->block(&b->job, lane, order[one->block]); /* fills lane->rays again */
+    lane->answers = NULL;
+    ref->sample_count += (size_t)ask_oracle(b, p, lane, order[one->block], bench_u64(&state) % count, one);
+  }
+  return ref->samples != NULL;
+}
+
+/* Whether an answer is what the oracle says. */
+static int agrees(const path *p, const path_answer *a, const sample *s) {
+  if (p->near) {
+    return a->count == s->count && (s->count == 0 || fabs(a->t - s->t) <= PATH_NEAR * fmax(1, fabs(s->t)));
+  }
+  return a->count == s->count && a->places == s->places;
+}
+
+/* hits: what the first hits of the same rays are, by another call, or null. */
+static int judge(bench *b, const path *p, reference *ref, const reference *hits, path_lane *lane, verdict *out) {
   size_t blocks = path_blocks(p, &b->job), n = blocks < b->judged_blocks ? blocks : b->judged_blocks;
+  n = ref->answers ? ref->blocks : n;
   size_t *order = shuffled(blocks, 1);
   path_answer *answers = calloc(n + 1, BLOCK * sizeof *answers);
   memset(out, 0, sizeof *out);
@@ -80,51 +144,36 @@ static int judge(bench *b, const path *p, reference *ref, path_lane *lane, verdi
   for (; done < n && (done == 0 || bench_now() - begin < 3); done++) {
     lane->answers = answers + done * BLOCK;
     size_t count = p->block(&b->job, lane, order[done]);
-    for (size_t k = 0; ref->there && done < ref->blocks && k < count; k++) {
+    for (size_t k = 0; ref->answers && k < count; k++) {
       out->judged++;
       out->wrong += answers[done * BLOCK + k].hash != ref->answers[done * BLOCK + k].hash;
     }
+    for (size_t k = 0; hits && done < hits->blocks && k < count; k++) {
+      const path_answer *a = &answers[done * BLOCK + k], *h = &hits->answers[done * BLOCK + k];
+      out->judged++;
+      out->wrong += !agrees(p, a, &(sample){.places = h->places, .t = h->t, .count = h->count});
+    }
   }
   lane->answers = NULL;
-  uint64_t state = 2;
-  oracle_interval stretches[MOST_STRETCHES];
-  for (size_t s = 0; b->oracle && blocks && s < b->opt.oracle; s++) {
-    size_t block = bench_u64(&state) % done;
-    size_t count = p->block(&b->job, lane, order[block]), k = bench_u64(&state) % count; /* fills lane->rays again */
-    const path_answer *a = &answers[block * BLOCK + lane->place[k]];
-    if (p->question == ASK_SIDES) {
-      a = &answers[block * BLOCK + k];
-      int side = oracle_point(b->oracle, b->job.lists.points + 3 * (order[block] * BLOCK + k));
-      out->oracle_skipped += side < 0;
-      out->oracle_judged += side >= 0;
-      out->oracle_wrong += side >= 0 && a->places != (uint64_t)side;
-      continue;
-    }
-    int zero; /* the directions of rays with the filter off are multiples of the camera's, their answers scaled back */
-    long found = oracle_ray(b->oracle, lane->rays[k].o, p->rays == RAYS_CAMERA ? b->camera.d : lane->rays[k].d, MOST_STRETCHES, stretches, &zero);
-    if (found < 0 || found > MOST_STRETCHES) {
-      out->oracle_skipped++;
-      continue;
-    }
-    out->oracle_judged++;
-    uint64_t places = PATH_NO_PLACES;
-    if (p->question == ASK_HITS && found) {
-      path_places(&places, zero ? stretches[0].leave : stretches[0].enter);
-    }
-    for (long i = 0; p->question == ASK_INTERVALS && i < found; i++) {
-      path_places(&places, stretches[i].enter);
-      path_places(&places, stretches[i].leave);
-    }
-    int same = a->places == places && a->count == (p->question == ASK_HITS ? found > 0 : (uint32_t)found);
-    out->oracle_wrong += !same;
+  int first = !ref->answers, ok = 1;
+  if (first) {
+    ref->answers = answers;
+    ref->blocks = done;
+    ok = draw_samples(b, p, ref, lane, order);
   }
-  if (!ref->there) {
-    *ref = (reference){answers, 1, done};
-  } else {
+  for (size_t s = 0; ok && s < ref->sample_count; s++) {
+    const sample *one = &ref->samples[s];
+    if (one->block < done) {
+      const path_answer *a = &answers[one->block * BLOCK + one->place];
+      out->oracle_judged++;
+      out->oracle_wrong += !agrees(p, a, one);
+    }
+  }
+  if (!first) {
     free(answers);
   }
   free(order);
-  return 1;
+  return ok;
 }
 
 /* --- timing ---------------------------------------------------------------------------------------------------------- */
@@ -396,13 +445,15 @@ int main(int argc, char **argv) {
     fputs("out of memory\n", stderr);
     return 1;
   }
-  reference references[4][3] = {{{0}}}; /* by rays and question */
+  static reference references[RAY_KINDS][QUESTIONS]; /* by rays and question */
   for (size_t i = 0; i < PATH_COUNT; i++) {
     verdict v;
     if (!wanted(&b.opt, PATHS[i].name) || path_blocks(&PATHS[i], &b.job) == 0) {
       continue;
     }
-    if (!judge(&b, &PATHS[i], &references[PATHS[i].rays][PATHS[i].question], lanes[0], &v)) {
+    reference *of_rays = references[PATHS[i].rays];
+    const reference *hits = PATHS[i].question == ASK_SPOTS && of_rays[ASK_HITS].answers ? &of_rays[ASK_HITS] : NULL;
+    if (!judge(&b, &PATHS[i], &of_rays[PATHS[i].question], hits, lanes[0], &v)) {
       fputs("out of memory\n", stderr);
       return 1;
     }
@@ -417,9 +468,10 @@ int main(int argc, char **argv) {
     sum += lanes[i]->sum;
     path_lane_free(lanes[i]);
   }
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 3; j++) {
+  for (int i = 0; i < RAY_KINDS; i++) {
+    for (int j = 0; j < QUESTIONS; j++) {
       free(references[i][j].answers);
+      free(references[i][j].samples);
     }
   }
   path_lists_free(&b.job);

@@ -28,7 +28,8 @@ static inline double bench_between(uint64_t *state, double a, double b) {
   return a + (b - a) * ((double)(bench_u64(state) >> 11) * 0x1p-53);
 }
 
-/* An orthographic grid: ray (i, j) starts at o + (i + 1/2)/width u + (j + 1/2)/height v and goes along d. */
+/* An orthographic grid: ray (i, j) starts at (o + (i + 1/2)/width u) + (j + 1/2)/height v, in doubles in that order (as quoin_grid has it), and
+   goes along d. */
 typedef struct bench_camera {
   double o[3], u[3], v[3], d[3];
   unsigned width, height;
@@ -40,7 +41,7 @@ int bench_camera_read(const char *path, bench_camera *out);
 static inline void bench_camera_ray(const bench_camera *c, unsigned i, unsigned j, double o[3]) {
   double x = (i + 0.5) / c->width, y = (j + 0.5) / c->height;
   for (int k = 0; k < 3; k++) {
-    o[k] = c->o[k] + (x * c->u[k] + y * c->v[k]);
+    o[k] = (c->o[k] + x * c->u[k]) + y * c->v[k];
   }
 }
 

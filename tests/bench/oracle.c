@@ -18,6 +18,7 @@ struct oracle {
   int root_on;
   event *events;
   size_t made, count;
+  double *x, *y, *z, *r2; /* balls that hold the leaves */
   mpfr_t temp[TEMPS];
   mpfr_t o[3], d[3], lo, hi;
 };
@@ -218,18 +219,14 @@ long oracle_ray(oracle *o, const double origin[3], const double direction[3], si
     mpfr_set_d(o->d[i], direction[i], RN);
     dd += direction[i] * direction[i];
   }
+  const double idd = 1 / dd;
   for (size_t i = 0; i < o->scene->leaf_count; i++) {
-    const flat_leaf *l = &o->scene->leaves[i];
-    double y[3], yd = 0, yy = 0;
-    for (int k = 0; k < 3; k++) {
-      y[k] = origin[k] - l->centre[k];
-      yd += y[k] * direction[k];
-      yy += y[k] * y[k];
-    }
-    if (yy - yd * yd / dd > l->radius * l->radius) {
+    double x = origin[0] - o->x[i], y = origin[1] - o->y[i], z = origin[2] - o->z[i];
+    double along = x * direction[0] + y * direction[1] + z * direction[2];
+    if (x * x + y * y + z * z - along * along * idd > o->r2[i]) {
       continue;
     }
-    int state = leaf_interval(o, l);
+    int state = leaf_interval(o, &o->scene->leaves[i]);
     if (state < 0) {
       return -1;
     }
@@ -291,11 +288,8 @@ int oracle_point(oracle *o, const double point[3]) {
   }
   for (size_t i = 0; i < o->scene->leaf_count && !on_surface; i++) {
     const flat_leaf *l = &o->scene->leaves[i];
-    double yy = 0;
-    for (int k = 0; k < 3; k++) {
-      yy += (point[k] - l->centre[k]) * (point[k] - l->centre[k]);
-    }
-    if (yy > l->radius * l->radius) {
+    double x = point[0] - o->x[i], y = point[1] - o->y[i], z = point[2] - o->z[i];
+    if (x * x + y * y + z * z > o->r2[i]) {
       continue;
     }
     int state = leaf_interval(o, l);
@@ -321,6 +315,7 @@ oracle *oracle_new(const flat_scene *scene) {
   o->scene = scene;
   o->nodes = calloc(scene->node_count + 1, sizeof *o->nodes);
   o->leaf_on = calloc(scene->leaf_count + 1, 1);
+  o->x = calloc(4 * scene->leaf_count + 1, sizeof *o->x);
   for (int i = 0; i < TEMPS; i++) {
     mpfr_init2(o->temp[i], BITS);
   }
@@ -330,9 +325,19 @@ oracle *oracle_new(const flat_scene *scene) {
   }
   mpfr_init2(o->lo, BITS);
   mpfr_init2(o->hi, BITS);
-  if (!o->nodes || !o->leaf_on) {
+  if (!o->nodes || !o->leaf_on || !o->x) {
     oracle_free(o);
     return NULL;
+  }
+  o->y = o->x + scene->leaf_count;
+  o->z = o->y + scene->leaf_count;
+  o->r2 = o->z + scene->leaf_count;
+  for (size_t i = 0; i < scene->leaf_count; i++) {
+    const flat_leaf *l = &scene->leaves[i];
+    o->x[i] = l->centre[0];
+    o->y[i] = l->centre[1];
+    o->z[i] = l->centre[2];
+    o->r2[i] = l->radius * l->radius;
   }
   return o;
 }
@@ -354,6 +359,7 @@ void oracle_free(oracle *o) {
     free(o->events);
     free(o->nodes);
     free(o->leaf_on);
+    free(o->x);
     free(o);
   }
 }

@@ -23,11 +23,12 @@ void path_places(uint64_t *hash, double t) {
 
 static void keep_hit(path_lane *lane, size_t place, const quoin_hit *h) {
   path_answer *a = &lane->answers[place];
-  *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, 0};
+  *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, 0};
   mix(&a->hash, &h->found, sizeof h->found);
   if (h->found) {
     a->count = 1;
     path_places(&a->places, h->t);
+    a->t = h->t;
     mix(&a->hash, &h->leaving, sizeof h->leaving);
     mix(&a->hash, &h->t, sizeof h->t);
     mix(&a->hash, &h->part, sizeof h->part);
@@ -37,7 +38,7 @@ static void keep_hit(path_lane *lane, size_t place, const quoin_hit *h) {
 
 static void keep_intervals(path_lane *lane, size_t place, const quoin_intervals *answer, double scale) {
   path_answer *a = &lane->answers[place];
-  *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, (uint32_t)answer->count};
+  *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, (uint32_t)answer->count};
   for (size_t i = 0; i < answer->count; i++) {
     const quoin_end *ends[2] = {&answer->inside[i].enter, &answer->inside[i].leave};
     for (int k = 0; k < 2; k++) {
@@ -192,11 +193,48 @@ static size_t block_random_single(const path_job *job, path_lane *lane, size_t b
   return single_hits_of(job, lane, listed(job->lists.random, job->lists.random_count, block, lane));
 }
 
+/* A block of the grid by the grid's own call. */
+static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsigned want) {
+  const bench_camera *c = job->camera;
+  extent e = block_extent(c, block);
+  quoin_grid g = {.width = c->width, .height = c->height, .from = 0, .to = INFINITY};
+  memcpy(g.o, c->o, sizeof g.o);
+  memcpy(g.u, c->u, sizeof g.u);
+  memcpy(g.v, c->v, sizeof g.v);
+  memcpy(g.d, c->d, sizeof g.d);
+  fail(lane, quoin_grid_hits(job->scene, lane->work, &g, e.x, e.y, e.x + e.w, e.y + e.h, want, lane->spots));
+  size_t n = (size_t)e.w * e.h;
+  for (size_t k = 0; k < n; k++) {
+    const quoin_spot *s = &lane->spots[k];
+    lane->sum += s->t;
+    if (lane->answers) {
+      path_answer *a = &lane->answers[k];
+      *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, s->surface != QUOIN_NO_SURFACE};
+      mix(&a->hash, &s->surface, sizeof s->surface);
+      if (a->count) {
+        mix(&a->hash, &s->leaving, sizeof s->leaving);
+        path_places(&a->places, s->t);
+        a->t = s->t;
+      }
+    }
+  }
+  if (lane->answers) { /* whoever judges wants to see the rays */
+    rows(c, block, 1, lane);
+  }
+  return n;
+}
+static size_t block_grid(const path_job *job, path_lane *lane, size_t block) {
+  return spots_of(job, lane, block, 0);
+}
+static size_t block_grid_t(const path_job *job, path_lane *lane, size_t block) {
+  return spots_of(job, lane, block, QUOIN_WANT_T);
+}
+
 static void keep_sides(path_lane *lane, size_t n) {
   for (size_t k = 0; k < n; k++) {
     lane->sum += (double)lane->sides[k];
     if (lane->answers) {
-      lane->answers[k] = (path_answer){(uint64_t)lane->sides[k], (uint64_t)lane->sides[k], 1};
+      lane->answers[k] = (path_answer){(uint64_t)lane->sides[k], (uint64_t)lane->sides[k], 0, 1};
     }
   }
 }
@@ -218,18 +256,20 @@ static size_t block_points_single(const path_job *job, path_lane *lane, size_t b
 }
 
 const path PATHS[] = {
-  {"tiles", "first hits, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_HITS, block_hits_tiles},
-  {"rows", "first hits, camera rays in rows of 64", RAYS_CAMERA, ASK_HITS, block_hits_rows},
-  {"single", "first hits, camera rays one by one", RAYS_CAMERA, ASK_HITS, block_hits_single},
-  {"intervals", "all intervals, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_INTERVALS, block_intervals},
-  {"intervals-single", "all intervals, one by one", RAYS_CAMERA, ASK_INTERVALS, block_intervals_single},
-  {"intervals-exact", "all intervals, the filter off", RAYS_CAMERA, ASK_INTERVALS, block_intervals_exact},
-  {"shadow", "first hits, rays from what the camera sees to a light", RAYS_SHADOW, ASK_HITS, block_shadow},
-  {"shadow-single", "the same, one by one", RAYS_SHADOW, ASK_HITS, block_shadow_single},
-  {"random", "first hits, incoherent rays", RAYS_RANDOM, ASK_HITS, block_random},
-  {"random-single", "the same, one by one", RAYS_RANDOM, ASK_HITS, block_random_single},
-  {"points", "sides of points", RAYS_POINTS, ASK_SIDES, block_points},
-  {"points-single", "the same, one by one", RAYS_POINTS, ASK_SIDES, block_points_single},
+  {"single", "first hits, camera rays one by one", RAYS_CAMERA, ASK_HITS, block_hits_single, 0},
+  {"rows", "first hits, camera rays in rows of 64", RAYS_CAMERA, ASK_HITS, block_hits_rows, 0},
+  {"tiles", "first hits, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_HITS, block_hits_tiles, 0},
+  {"grid-t", "first hits by the grid call, t rounded correctly", RAYS_CAMERA, ASK_SPOTS, block_grid_t, 0},
+  {"grid", "first hits by the grid call", RAYS_CAMERA, ASK_SPOTS, block_grid, 1},
+  {"intervals-single", "all intervals, camera rays one by one", RAYS_CAMERA, ASK_INTERVALS, block_intervals_single, 0},
+  {"intervals", "all intervals, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_INTERVALS, block_intervals, 0},
+  {"intervals-exact", "all intervals, the filter off", RAYS_CAMERA, ASK_INTERVALS, block_intervals_exact, 0},
+  {"shadow-single", "first hits, rays from what the camera sees to a light, one by one", RAYS_SHADOW, ASK_HITS, block_shadow_single, 0},
+  {"shadow", "the same as arrays, in the order of 8x8 tiles", RAYS_SHADOW, ASK_HITS, block_shadow, 0},
+  {"random-single", "first hits, incoherent rays, one by one", RAYS_RANDOM, ASK_HITS, block_random_single, 0},
+  {"random", "the same as arrays", RAYS_RANDOM, ASK_HITS, block_random, 0},
+  {"points-single", "sides of points, one by one", RAYS_POINTS, ASK_SIDES, block_points_single, 0},
+  {"points", "the same as arrays", RAYS_POINTS, ASK_SIDES, block_points, 0},
 };
 const size_t PATH_COUNT = sizeof PATHS / sizeof *PATHS;
 
@@ -245,6 +285,7 @@ size_t path_blocks(const path *p, const path_job *job) {
   case RAYS_SHADOW: return (job->lists.shadow_count + BLOCK - 1) / BLOCK;
   case RAYS_RANDOM: return (job->lists.random_count + BLOCK - 1) / BLOCK;
   case RAYS_POINTS: return (job->lists.point_count + BLOCK - 1) / BLOCK;
+  case RAY_KINDS: break;
   }
   return 0;
 }

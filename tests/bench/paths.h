@@ -7,14 +7,15 @@
 enum { BLOCK_EDGE = 64, BLOCK = BLOCK_EDGE * BLOCK_EDGE }; /* the unit of work: 64 x 64 pixels, or 4096 rays or points of a list */
 
 /* What is asked; answers of paths with the same question about the same rays must be the same bytes. */
-typedef enum path_question { ASK_HITS, ASK_INTERVALS, ASK_SIDES } path_question;
-typedef enum path_rays { RAYS_CAMERA, RAYS_SHADOW, RAYS_RANDOM, RAYS_POINTS } path_rays;
+typedef enum path_question { ASK_HITS, ASK_SPOTS, ASK_INTERVALS, ASK_SIDES, QUESTIONS } path_question;
+typedef enum path_rays { RAYS_CAMERA, RAYS_SHADOW, RAYS_RANDOM, RAYS_POINTS, RAY_KINDS } path_rays;
 
 /* An answer boiled down: the same for the same answer. */
 typedef struct path_answer {
   uint64_t hash;   /* of everything that is promised to be the same on every path */
   uint64_t places; /* of the parameters only (path_places); points: the side */
-  uint32_t count; /* intervals, or 1 for a hit */
+  double t;        /* of the first boundary; infinite when there is none */
+  uint32_t count;  /* intervals, or 1 for a hit */
 } path_answer;
 
 /* Lists of rays and points, in blocks of BLOCK. */
@@ -36,6 +37,7 @@ typedef struct path_lane {
   quoin_work *work;
   quoin_ray rays[BLOCK];
   quoin_hit hits[BLOCK];
+  quoin_spot spots[BLOCK];
   quoin_side sides[BLOCK];
   uint16_t place[BLOCK];    /* of ray k in the block's row-major order */
   path_answer *answers;     /* null when only time is wanted; else BLOCK of them, row-major */
@@ -49,8 +51,11 @@ typedef struct path {
   path_question question;
   /* Answers one block; returns how many rays or points it had. */
   size_t (*block)(const path_job *job, path_lane *lane, size_t block);
+  int near; /* its t is promised only to be near the true one */
 } path;
 
+/* `near` means: within this share of the parameter (of 1 where that is more). */
+#define PATH_NEAR 1e-9
 #define PATH_NO_PLACES 0xcbf29ce484222325u
 void path_places(uint64_t *hash, double t); /* takes one more parameter in */
 

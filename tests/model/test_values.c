@@ -211,6 +211,8 @@ static void errors(void **state) {
   error("nope()", "Q0303");
   error("x", "Q0302");
   error("7 ^ 100000", "Q0904");
+  error("exp(10 ^ 10)", "Q0904"); /* once without end: beyond the exponents of MPFR */
+  error("1.1 ^ (10 ^ 10 + 0.5)", "Q0904");
   error("true && nope", "Q0301");
   error("nope ? 1 : 2", "Q0301");
   error("-nope", "Q0301");

@@ -368,6 +368,37 @@ static void test_rounded(void **state) {
   assert_true(qn_int_bits(den) > 140);
 }
 
+/* A rounded quadratic with roots 2^60 +- r: its coefficients are huge beside the roots' distance, and still only roots that
+   agree to about 2^-200 tie. error: added to c, whose terms have 400 bits. */
+static qn_quad far_ball(int64_t quarter_r, int64_t error) {
+  qn_quad q;
+  qn_int one = qn_int_from(&ctx, 1);
+  qn_int c = qn_int_sub(&ctx, qn_int_shl(&ctx, one, 120 + 280), qn_int_shl(&ctx, qn_int_from(&ctx, quarter_r * quarter_r), 280 - 4));
+  c = qn_int_add(&ctx, c, qn_int_from(&ctx, error));
+  qn_quad_make(&ctx, qn_x_rounded(qn_int_shl(&ctx, one, 280)), qn_x_rounded(qn_int_neg(qn_int_shl(&ctx, one, 60 + 280))), qn_x_rounded(c), &q);
+  return q;
+}
+
+static void test_rounded_far(void **state) {
+  (void)state;
+  qn_quad big = far_ball(4, 0), small = far_ball(2, 0), again = far_ball(4, 12345);
+  assert_int_equal(qn_quad_kind(&big), QN_QUAD_TWO);
+  static const int8_t order[4][4] = {{0, -1, -1, -1}, {1, 0, -1, -1}, {1, 1, 0, -1}, {1, 1, 1, 0}}; /* -1, -1/2, 1/2, 1 */
+  const qn_root roots[4] = {{&big, 0}, {&small, 0}, {&small, 1}, {&again, 1}};
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      assert_int_equal(qn_root_cmp(&ctx, roots[i], roots[j]), order[i][j]);
+    }
+  }
+  for (int i = 0; i < 2; i++) {
+    assert_int_equal(qn_root_cmp(&ctx, (qn_root){&big, i}, (qn_root){&again, i}), 0);
+    qn_int place = qn_int_add(&ctx, qn_int_shl(&ctx, qn_int_from(&ctx, 1), 60), qn_int_from(&ctx, 2 * i - 1)), one = qn_int_from(&ctx, 1);
+    assert_int_equal(qn_root_cmp_rat(&ctx, (qn_root){&again, i}, place, one), 0);
+    qn_int den = qn_int_shl(&ctx, one, 60), num = qn_int_add(&ctx, qn_int_shl(&ctx, place, 60), one); /* 2^-60 beside it */
+    assert_int_equal(qn_root_cmp_rat(&ctx, (qn_root){&again, i}, num, den), -1);
+  }
+}
+
 /* A refused allocation is told by the context, and nothing hangs. */
 static void test_memory(void **state) {
   (void)state;
@@ -391,7 +422,7 @@ static void test_memory(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_kinds),      cmocka_unit_test(test_order),        cmocka_unit_test(test_to_double), cmocka_unit_test(test_to_double_middles),
-    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_rounded_far), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -225,11 +225,87 @@ static void arguments(void **state) {
   ask_close(&b);
 }
 
+/* --- memory that is refused ---------------------------------------------------------------------------------------- */
+
+typedef struct meter { int armed; size_t left, asked; } meter;
+static void *meter_alloc(void *user, size_t size) {
+  meter *m = user;
+  m->asked++;
+  if (m->armed && m->left-- == 0) {
+    m->left = 0;
+    return NULL;
+  }
+  return malloc(size);
+}
+static void *meter_resize(void *user, void *block, size_t old_size, size_t new_size) {
+  meter *m = user;
+  (void)old_size;
+  m->asked++;
+  if (m->armed && m->left-- == 0) {
+    m->left = 0;
+    return NULL;
+  }
+  return realloc(block, new_size);
+}
+static void meter_release(void *user, void *block, size_t size) {
+  (void)user, (void)size;
+  free(block);
+}
+
+/* Every allocation of a question refused in turn: a status, no crash, and the next question is answered. */
+static void refusals(void **state) {
+  (void)state;
+  static const char text[] = "difference() { rotate(20,[1,2,3]) { translate([2,0,0]) sphere(2); translate([-1,-1,-1]) cube(1); cylinder(h=1,r1=0,r2=1);"
+                             " superquadric(r=[1,1,1],e=0.5,n=0.5); } translate([1,0,0]) sphere(1); }";
+  size_t refused = 0;
+  for (size_t n = 0; n < 60; n++) {
+    meter m = {0};
+    const quoin_allocator allocator = {meter_alloc, meter_resize, meter_release, &m, 0};
+    quoin_model *model;
+    quoin_scene *scene;
+    quoin_work *work = NULL;
+    assert_int_equal(quoin_model_new(&allocator, &model), QUOIN_OK);
+    assert_int_equal(quoin_model_read_text(model, QUOIN_ROOT, "test", text, sizeof text - 1, NULL), QUOIN_OK);
+    assert_int_equal(quoin_scene_compile(model, NULL, &scene), QUOIN_OK);
+    m.armed = 1, m.left = n;
+    quoin_status status = quoin_work_new(scene, &work);
+    quoin_side side;
+    quoin_part part;
+    size_t count;
+    quoin_intervals got;
+    quoin_hit hit;
+    static const char *const at[3] = {"0", "0", "0.0"};
+    static const char *const ray[6] = {"0.1", "0", "0", "0", "0.3", "0.4"};
+    const quoin_ray first = {{-9, 0.1, 0.2}, {1, 0, 0}, 0, 99};
+    for (int k = 0; k < 4 && status == QUOIN_OK; k++) {
+      status = k == 0   ? quoin_point_side_text(scene, work, at, &side)
+               : k == 1 ? quoin_point_parts_text(scene, work, at, &part, 1, &count)
+               : k == 2 ? quoin_ray_intervals_text(scene, work, ray, "-1e-400", NULL, 3, &got)
+                        : quoin_first_hit(scene, work, &first, &hit);
+    }
+    assert_true(status == QUOIN_OK || status == QUOIN_E_MEMORY);
+    refused += status != QUOIN_OK;
+    m.armed = 0;
+    if (work) {
+      assert_int_equal(quoin_point_side_text(scene, work, at, &side), QUOIN_OK);
+      assert_int_equal(side, QUOIN_BOUNDARY);
+      assert_int_equal(quoin_ray_intervals_text(scene, work, ray, "-1e-400", NULL, 3, &got), QUOIN_OK);
+      assert_int_equal(quoin_first_hit(scene, work, &first, &hit), QUOIN_OK);
+      assert_true(hit.found);
+    }
+    quoin_work_free(work);
+    quoin_scene_free(scene);
+    quoin_model_free(model);
+  }
+  print_message("questions refused: %zu\n", refused);
+  assert_true(refused > 10);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(walls), cmocka_unit_test(hexagon), cmocka_unit_test(touching_spheres), cmocka_unit_test(tangent_planes),
     cmocka_unit_test(rounded_box), cmocka_unit_test(apexes), cmocka_unit_test(crossings), cmocka_unit_test(turned),
-    cmocka_unit_test(doubles_and_decimals), cmocka_unit_test(superquadrics), cmocka_unit_test(parts), cmocka_unit_test(arguments),
+    cmocka_unit_test(doubles_and_decimals), cmocka_unit_test(superquadrics), cmocka_unit_test(parts), cmocka_unit_test(arguments), cmocka_unit_test(refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -196,6 +196,13 @@ static void fans_about_a_circle(void **state) {
   /* the rim of a capsule: the sphere runs into the cylinder */
   const surface capsule[3] = {{{1, 1, 0, 0, 0, 0, 0, 0, 0, -1}}, {{1, 1, 1, 0, 0, 0, 0, 0, 0, -1}}, {{[8] = 1}}};
   expect_cells(3, capsule, (int[]){1, 0, 0}, 1, "--- --+ -+- -++ ++- +++");
+  /* the same where no coordinate is nought: what S2 rounds is everywhere */
+  const int slanted[3] = {3, 4, 0};
+  expect_cells(3, cone, slanted, 5, "--- -+- -++ +-- +-- +++ +-+ ---");
+  expect_cells(3, pencil, slanted, 5, "--- --+ -++ +++ ++- +--");
+  expect_cells(3, capsule, slanted, 5, "--- --+ -+- -++ ++- +++");
+  const surface planes[3] = {{{[6] = 4, [7] = -3}}, {{[6] = 4, [7] = -3, [8] = 5}}, {{[6] = 4, [7] = -3, [8] = -7}}};
+  expect_cells(3, planes, slanted, 5, "--- --+ -+- +++ ++- +-+");
 }
 
 static void apexes(void **state) {
@@ -225,6 +232,24 @@ static void steinmetz(void **state) {
   const surface s[3] = {{{1, 0, 1, 0, 0, 0, 0, 0, 0, -1}}, {{0, 1, 1, 0, 0, 0, 0, 0, 0, -1}}, {{[8] = 1, [9] = -1}}};
   expect_cells(2, s, (int[]){0, 0, 1}, 1, "-- -+ +- ++");
   expect_cells(3, s, (int[]){0, 0, 1}, 1, "--- -+- +-- ++- +++");
+}
+
+/* Surfaces that touch and bend alike: the third order decides (D = xz), or the fourth (D = z^2). */
+static void bent_alike(void **state) {
+  (void)state;
+  /* in the quarter x > |y| one order, in x < -|y| the other */
+  const surface third[4] = {{{1, 1, 0, 0, 0, 0, 0, 0, 1}}, {{1, 1, 0, 0, 1, 0, 0, 0, 1}}, {{[6] = 1, [7] = 1}}, {{[6] = 1, [7] = -1}}};
+  expect_cells(2, third, ORIGIN, 1, "-- -+ +- ++");
+  expect_cells(4, third, ORIGIN, 1, "---- ---+ --+- --++ -+-- -+-+ -++- +--+ +-+- +-++ ++-- ++-+ +++- ++++");
+  const surface hollow[4] = {{{-1, -1, 0, 0, 0, 0, 0, 0, 1}}, {{-1, -1, 0, 0, 1, 0, 0, 0, 1}}, {{[6] = 1, [7] = 1}}, {{[6] = 1, [7] = -1}}};
+  expect_cells(4, hollow, ORIGIN, 1, "---- ---+ --+- --++ -+++ -+-+ -++- +--+ +-+- +--- ++-- ++-+ +++- ++++");
+  /* the plane x = 0 itself: nothing but third order tells which side has which; all is given (docs/exactness.md) */
+  const surface open[3] = {{{1, 1, 0, 0, 0, 0, 0, 0, 1}}, {{1, 1, 0, 0, 1, 0, 0, 0, 1}}, {{[6] = 1}}};
+  expect_cells(3, open, ORIGIN, 1, "--- --+ -+- -++ +-- +-+ ++- +++");
+  const surface fourth[2] = {{{1, 1, 0, 0, 0, 0, 0, 0, 1}}, {{1, 1, 1, 0, 0, 0, 0, 0, 1}}};
+  expect_cells(2, fourth, ORIGIN, 1, "-- -+ ++");
+  const surface other[2] = {{{1, 1, 0, 0, 0, 0, 0, 0, 1}}, {{1, 1, -1, 0, 0, 0, 0, 0, 1}}};
+  expect_cells(2, other, ORIGIN, 1, "-- +- ++");
 }
 
 /* Two classes of two at a crossing: their stacks combine freely. x-y: planes x, y; cylinders that touch them. */
@@ -393,6 +418,34 @@ static void random_germs(void **state) {
   assert_true(met * 100 >= cells * 90);
 }
 
+static int count_one(void *user, const int8_t *signs) {
+  (void)signs;
+  ++*(size_t *)user;
+  return 0;
+}
+
+/* Many planes through one point, as a hostile file may have: n^2 - n + 2 cells in general position, and an end to it beyond a limit. */
+static void many_planes(void **state) {
+  (void)state;
+  enum { N = 300 };
+  static qn_germ germs[N];
+  for (int n = 20; n <= N; n += 280) {
+    world w;
+    open_world(&w);
+    qn_point p = {{{0, NULL}, {0, NULL}, {0, NULL}}, qn_int_from(&w.ctx, 1)};
+    for (int i = 0; i < n; i++) {
+      surface s = {{[6] = 1, [7] = i, [8] = i * i}};
+      qn_exact_surface e = exact(&w.ctx, &s);
+      qn_surface_germ_at(&w.ctx, &e, &p, &germs[i]);
+    }
+    size_t cells = 0;
+    int whole = qn_cells_list(&w.ctx, (size_t)n, germs, count_one, &cells);
+    assert_int_equal(whole, n == 20);
+    assert_true(cells >= (size_t)n * (size_t)(n - 1) + 2 || !whole); /* each is listed once for each of its planes */
+    close_world(&w);
+  }
+}
+
 /* Every order of the surfaces, and every choice of their signs, gives the same cells. */
 static void orders(void **state) {
   (void)state;
@@ -439,7 +492,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(wall), cmocka_unit_test(corners), cmocka_unit_test(planes_through_a_line), cmocka_unit_test(spheres_that_touch),
     cmocka_unit_test(plane_that_touches), cmocka_unit_test(sphere_on_an_edge), cmocka_unit_test(fans_about_a_circle), cmocka_unit_test(apexes),
-    cmocka_unit_test(steinmetz), cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(orders),
+    cmocka_unit_test(steinmetz), cmocka_unit_test(bent_alike), cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(many_planes), cmocka_unit_test(orders),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

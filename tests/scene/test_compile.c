@@ -14,7 +14,8 @@ static int in(int low, int high) {
 
 /* --- random trees of cubes against a plain evaluation ------------------------------------------------------------------ */
 
-typedef struct tree { int op; int box[6]; int first, next; int moved[3]; } tree; /* op: 0 union, 1 difference, 2 intersection, 3 cube */
+/* op: 0 union, 1 difference, 2 intersection, 3 cube */
+typedef struct tree { int op; int box[6]; int first, next; int moved[3]; } tree;
 enum { MOST = 400 };
 static tree nodes[MOST];
 static int node_count;
@@ -190,9 +191,11 @@ static void apart(void **unused) {
   expect("intersection(){ cube(1); translate([1/2,0,0]) cube(1); translate([0,-1.001,0]) cube(1); }", 0, 1);
   expect("intersection(){ cube(1); union(){ translate([2,0,0]) cube(1); translate([0.5,0,0]) cube(1); } }", 2, 0);
   expect("difference(){ cube(1); union(){ translate([2,0,0]) cube(1); translate([3,0,0]) sphere(1); } }", 1, 0);
-  expect("difference(){ cube(1); difference(){ cube(0.5); translate([0.8,0,0]) cube(0.1); } }", 2, 0); /* the notch is out of the notched one's reach */
+  /* the notch is out of the notched one's reach */
+  expect("difference(){ cube(1); difference(){ cube(0.5); translate([0.8,0,0]) cube(0.1); } }", 2, 0);
   expect("difference(){ cube(9); difference(){ cube(8); intersection(){ cube(7); translate([20,0,0]) cube(1); } } }", 2, 0);
-  expect("difference(){ union(){ cube(1); translate([10,0,0]) cube(1); } translate([5,0,0]) cube(1); }", 3, 0); /* boxes only: it stays */
+  /* boxes only: it stays */
+  expect("difference(){ union(){ cube(1); translate([10,0,0]) cube(1); } translate([5,0,0]) cube(1); }", 3, 0);
   expect("intersection(){ rotate([10,20,30]) sphere(1); translate([2.1,0,0]) sphere(1); }", 0, 1);
   expect("intersection(){ halfspace(n=[0,0,1],d=0); translate([0,0,1]) cube(1); }", 0, 1);
   expect("difference(){ cube(1); halfspace(n=[0,0,1],d=-1); }", 1, 0);

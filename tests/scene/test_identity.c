@@ -55,21 +55,26 @@ static void quadrics(void **unused) {
   assert_int_equal(distinct("sphere(2); ellipsoid(r=[2,2,2]); quadric([1,1,1,0,0,0,0,0,0,-4]); scale(2) sphere(1); scale([2,4,1]) ellipsoid(r=[1,0.5,2]);", 5), 1);
   assert_int_equal(distinct("translate([0.1,0.2,0.3]) sphere(2); translate([0.1,0.2,0]) translate([0,0,0.3]) rotate([30,0,0]) sphere(2);", 2), 1);
   assert_int_equal(distinct("sphere(2); sphere(2.0000000001); translate([1e-20,0,0]) sphere(2);", 3), 3);
-  assert_int_equal(distinct("cylinder(h=1,r=2); cylinder(h=5,r=2); translate([0,0,-7.5]) rotate([0,0,45]) cylinder(h=2,r=2);", 3), 6);
+  assert_int_equal(distinct("cylinder(h=1,r=2); cylinder(h=5,r=2); translate([0,0,-7.5]) rotate([0,0,45]) cylinder(h=2,r=2);",
+                            3), 6);
   assert_int_equal(distinct("cylinder(h=5,r=2,base=[0,0,5],axis=[0,0,-1]); cylinder(h=5,r=2);", 2), 3);
   assert_int_equal(distinct("cylinder(h=4,r1=2,r2=0); cylinder(h=2,r1=2,r2=1);", 2), 4); /* one cone, three caps */
   assert_int_equal(distinct("hyperboloid(h=3,r=5,rc=4); quadric([1,1,-1,0,0,0,0,0,0,-16]);", 2), 3);
+  assert_int_equal(distinct("translate([1,2,5]) paraboloid(h=2,r=3); quadric([2,2,0,0,0,0,-4,-8,-9,55]);", 2), 2);
+  assert_int_equal(distinct("translate([0,0,5]) saddle(a=1,b=2); quadric([-4,1,0,0,0,0,0,0,4,-20]);", 2), 1);
   assert_int_equal(distinct("quadric([0,0,0,0,0,0,2,0,0,-2]); halfspace(n=[1,0,0],d=1); cube(1);", 3), 6); /* a plane is a plane */
   assert_int_equal(distinct("quadric([1,0,0,0,0,0,0,0,0,-1]); quadric([1,0,0,0,0,0,0,0,0,-1.00000001]);", 2), 2);
   assert_int_equal(distinct("scale(1e-12) { sphere(1); sphere(2); } scale(1e12) { sphere(1); sphere(2); }", 4), 4);
-  assert_int_equal(distinct("sphere(1e-200); scale(1e-200) sphere(1); sphere(1e200); scale(1e200) sphere(1); sphere(2e200);", 5), 3);
+  assert_int_equal(distinct("sphere(1e-200); scale(1e-200) sphere(1); sphere(1e200); scale(1e200) sphere(1); sphere(2e200);", 5),
+                   3);
 }
 
 static void superquadrics(void **unused) {
   (void)unused;
   assert_int_equal(distinct("superquadric(r=[1,2,3],e=0.5,n=1.5); superquadric(r=[1,2,3],e=0.5,n=1.5);", 2), 1);
   assert_int_equal(distinct("superquadric(r=[1,2,3],e=0.5,n=1.5); superquadric(r=[1,2,3],e=0.5,n=1.25);", 2), 2);
-  assert_int_equal(distinct("superquadric(r=[1,2,3],e=0.5,n=1.5); translate([1e-9,0,0]) superquadric(r=[1,2,3],e=0.5,n=1.5);", 2), 2);
+  assert_int_equal(distinct("superquadric(r=[1,2,3],e=0.5,n=1.5); translate([1e-9,0,0]) superquadric(r=[1,2,3],e=0.5,n=1.5);",
+                            2), 2);
   assert_int_equal(distinct("sphere(1); superquadric(r=[1,1,1],e=0.5,n=1.5);", 2), 2);
 }
 
@@ -96,6 +101,11 @@ static void sides(void **unused) {
   assert_int_equal(s->halves[0].side, 1);
   assert_int_equal(s->halves[1].side, -1);
   quoin_scene_free(s);
+  /* Noise below 2^-200 turns the normalised form round, not the surface. */
+  s = scene_of("halfspace(n=[1e-70,sqrt(2),0],d=1); halfspace(n=[-1e-70,sqrt(2),0],d=1); halfspace(n=[1e-70,-sqrt(2),0],d=-1);");
+  assert_int_equal(s->surface_count, 1);
+  assert_true(s->halves[0].side == 1 && s->halves[1].side == 1 && s->halves[2].side == -1);
+  quoin_scene_free(s);
   /* The first coefficient of the rotated cone is an exact 0 that doubles cannot see: x and z trade places at 45 degrees. */
   s = scene_of("quadric([0,1,0,0,1,0,0,0,0,0]); quadric([0,-1,0,0,-1,0,0,0,0,0]);");
   assert_int_equal(s->surface_count, 1);
@@ -110,14 +120,18 @@ static void sides(void **unused) {
 /* Everything in one order or the other, scaled, moved: the same number of surfaces. */
 static void relatives(void **unused) {
   (void)unused;
-  static const char *const wrap[] = {"%s", "rotate([0,0,90]) { %s }", "scale(1024) { %s }", "scale(1/1024) { %s }", "scale(1e-7) { %s }", "translate([1e7,-0.1,1/3]) { %s }",
-                                     "multmatrix([[0.6,0.8,0,0],[-0.8,0.6,0,0],[0,0,1,0]]) { %s }", "rotate([12,34,56]) { %s }", "mirror([1,1,0]) { %s }",
+  static const char *const wrap[] = {"%s", "rotate([0,0,90]) { %s }", "scale(1024) { %s }", "scale(1/1024) { %s }",
+                                     "scale(1e-7) { %s }", "translate([1e7,-0.1,1/3]) { %s }",
+                                     "multmatrix([[0.6,0.8,0,0],[-0.8,0.6,0,0],[0,0,1,0]]) { %s }", "rotate([12,34,56]) { %s }",
+                                         "mirror([1,1,0]) { %s }",
                                      "scale([1e-3,1,1e3]) { %s }", "translate([1e12,1e12,1e12]) rotate([1,2,3]) { %s }"};
   static const struct { const char *text; size_t leaves, distinct; } cases[] = {
     {"cube(1); translate([1,0,0]) cube(1); translate([0.1+0.2,0,0]) cube(1); translate([0.3,0,0]) cube(1);", 4, 9},
-    {"sphere(1); cylinder(h=2,r=1,center=true); translate([0,0,2]) cylinder(h=2,r=1,center=true); translate([0,0,2]) sphere(1);", 4, 6},
+    {"sphere(1); cylinder(h=2,r=1,center=true); translate([0,0,2]) cylinder(h=2,r=1,center=true); translate([0,0,2]) sphere(1);",
+     4, 6},
     {"cube(1); rotate(a=120,v=[1,1,1]) cube(1); rotate(a=240,v=[1,1,1]) cube(1);", 3, 6},
     {"quadric([1,2,3,0,0,0,0,0,0,-4]); scale(3) quadric([9,18,27,0,0,0,0,0,0,-4]); quadric([1,2,3,0,0,0,0,0,0.001,-4]);", 3, 2},
+    {"paraboloid(h=2,r=3); translate([0,0,1]) quadric([2,2,0,0,0,0,0,0,-9,-9]); rotate([180,0,0]) paraboloid(h=2,r=3);", 3, 4},
     {"cube(1); translate([1+1e-11,0,0]) cube(1); translate([1-1e-11,0,0]) cube(1);", 3, 10},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -138,7 +152,8 @@ static void most_need_no_exact_forms(void **unused) {
   assert_non_null(text);
   srand(1);
   for (int i = 0; i < N; i++) {
-    at += (size_t)snprintf(text + at, 100, "translate([%d.%03d,%d.%03d,%d.%03d]) sphere(0.%03d);\n", rand() % 1000, rand() % 1000, rand() % 1000, rand() % 1000,
+    at += (size_t)snprintf(text + at, 100, "translate([%d.%03d,%d.%03d,%d.%03d]) sphere(0.%03d);\n", rand() % 1000,
+                           rand() % 1000, rand() % 1000, rand() % 1000,
                            rand() % 1000, rand() % 1000, rand() % 999 + 1);
   }
   quoin_scene *s = scene_of(text);
@@ -173,7 +188,8 @@ static void lattices(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(planes), cmocka_unit_test(rounded_planes), cmocka_unit_test(quadrics), cmocka_unit_test(superquadrics), cmocka_unit_test(sides),
+    cmocka_unit_test(planes), cmocka_unit_test(rounded_planes), cmocka_unit_test(quadrics), cmocka_unit_test(superquadrics),
+        cmocka_unit_test(sides),
     cmocka_unit_test(relatives), cmocka_unit_test(most_need_no_exact_forms), cmocka_unit_test(lattices),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -32,8 +32,8 @@ static void set_num(qn_ctx *ctx, mpq_t out, qn_num a) {
 
 static size_t numbers, zeros, roundings;
 
-/* |shadow - exact| <= QN_SHADOW |exact|, and one is 0 when the other is. Of a rounded number, which the two routes round at 2^-256 apart,
-   a hair more. */
+/* |shadow - exact| <= QN_SHADOW |exact|, and one is 0 when the other is. Of a rounded number, which the two routes round at
+   2^-256 apart, a hair more. */
 static void check(qn_ctx *ctx, double shadow, qn_num exact, int rounded) {
   numbers++;
   if (qn_num_is_zero(exact)) {
@@ -351,8 +351,8 @@ static void deep_products(void **unused) {
 
 /* --- boxes ------------------------------------------------------------------------------------------------------------ */
 
-/* Exact extents of a cube [0, size] under the leaf's exact map: the corners of its three slabs. From the forms: |r_i . x| solved is more work
-   than trying the eight corners of the known solid, mapped. */
+/* Exact extents of a cube [0, size] under the leaf's exact map: the corners of its three slabs. From the forms: |r_i . x|
+   solved is more work than trying the eight corners of the known solid, mapped. */
 static void boxes_hold_corners(void **unused) {
   (void)unused;
   size_t tight = 0;

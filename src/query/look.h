@@ -1,0 +1,38 @@
+/* Rays in packets, for whoever asks many at once. */
+#ifndef QN_QUERY_LOOK_H
+#define QN_QUERY_LOOK_H
+
+#include "query/work.h"
+#include "wide/packet.h"
+
+/* What a ray meets first. Everything here follows from the ray, its parameter and its surface, so it is the same by
+   whatever route the ray was answered. */
+typedef struct qn_seen {
+  double t;          /* correctly rounded */
+  uint32_t surface;  /* QUOIN_NO_SURFACE: no boundary is met, and nothing else is set */
+  uint32_t leaf;     /* the part; where parts share the surface and `exact_part` was not asked for, one of them */
+  uint8_t leaving;
+} qn_seen;
+
+enum {
+  QN_LOOK_T = 1,        /* t correctly rounded; without it t is only near */
+  QN_LOOK_PART = 2,     /* the leaf as the woven path names it, also where parts share the surface */
+  QN_LOOK_MATERIAL = 4  /* a leaf with the material that the woven path would find */
+};
+
+/* The first boundaries of n rays, each with a finite origin and a finite direction that is not zero. Rays that go the same way do best in
+   runs of 64, each run an 8 by 8 tile in the order of wide/packet.h; runs that do not are woven one by one. */
+/* on: null, or for each ray the surface that its start lies on (or QUOIN_NO_SURFACE): a hint that spares a ray that starts at a hit, shifted by
+   rounding, a comparison of two nearly equal places. */
+quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out);
+
+/* The same for lanes that are in a packet already. */
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES]);
+
+/* The unit normal, out of the solid, at t on the ray, from the surface's own double form; zero at a singular point. */
+void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]);
+
+/* The gradient of a half-space's form at pivot + y, in doubles (hit.c). */
+void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]);
+
+#endif
