@@ -3,10 +3,6 @@
 
 #include <math.h>
 
-/* Column and row of a lane within its tile (wide/packet.h). */
-static unsigned column_of(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
-static unsigned row_of(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
-
 static int finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
 
 /* What all tiles of a grid share. Returns 0 when the shared vector is not one for rays. */
@@ -20,34 +16,28 @@ static int fill_shared(const quoin_grid *g, qn_packet *p) {
     p->on[lane] = QUOIN_NO_SURFACE;
   }
   p->new_origins = p->new_directions = 1;
+  p->tile = g->converging ? QN_TILE_DIRECTIONS : QN_TILE_ORIGINS;
   return finite3(g->o) && finite3(g->u) && finite3(g->v) && finite3(g->d) && (g->converging || g->d[0] != 0 || g->d[1] != 0 || g->d[2] != 0);
 }
 
-/* Fills in the tile at (x, y); lanes past the edges repeat the last column and row. Returns 0 when a ray is not one (a direction
+/* Describes the tile at (x, y); lanes past the edges repeat the last column and row. Returns 0 when a ray is not one (a direction
    that is zero, or numbers beyond doubles). */
 static int fill_tile(const quoin_grid *g, size_t x, size_t y, size_t x1, size_t y1, qn_packet *p) {
   unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+  const double *base = g->converging ? g->d : g->o;
   double s[8], r[8];
   for (unsigned i = 0; i < 8; i++) {
     s[i] = ((double)(x + (i < columns ? i : columns - 1)) + 0.5) / (double)g->width;
     r[i] = ((double)(y + (i < rows ? i : rows - 1)) + 0.5) / (double)g->height;
   }
-  const double *base = g->converging ? g->d : g->o;
-  double(*to)[QN_LANES] = g->converging ? p->d : p->o;
   int finite = 1, through_zero = g->converging;
   for (int k = 0; k < 3; k++) {
-    double across[8], up[8];
     for (unsigned i = 0; i < 8; i++) {
-      across[i] = base[k] + s[i] * g->u[k];
-      up[i] = r[i] * g->v[k];
+      p->across[k][i] = base[k] + s[i] * g->u[k];
+      p->up[k][i] = r[i] * g->v[k];
     }
-    for (unsigned q = 0; q < QN_LANES / 4; q++) { /* four lanes are two columns and two rows */
-      unsigned c = (q & 1) << 1 | (q >> 1 & 2) << 1, w = (q >> 1 & 1) << 1 | (q >> 2 & 2) << 1;
-      double *t = to[k] + 4 * q;
-      t[0] = across[c] + up[w], t[1] = across[c + 1] + up[w];
-      t[2] = across[c] + up[w + 1], t[3] = across[c + 1] + up[w + 1];
-    }
-    double corner[4] = {across[0] + up[0], across[7] + up[0], across[0] + up[7], across[7] + up[7]}; /* sums are monotone: the rest lies between */
+    const double *a = p->across[k], *u = p->up[k];
+    const double corner[4] = {a[0] + u[0], a[7] + u[0], a[0] + u[7], a[7] + u[7]}; /* sums are monotone: the rest lies between */
     int low = 0, high = 0;
     for (int i = 0; i < 4; i++) {
       finite &= isfinite(corner[i]) != 0;
@@ -58,8 +48,13 @@ static int fill_tile(const quoin_grid *g, size_t x, size_t y, size_t x1, size_t 
   p->live = columns == 8 && rows == 8 ? ~(uint64_t)0 : 0;
   if (!p->live || through_zero) {
     for (unsigned lane = 0; lane < QN_LANES; lane++) {
-      p->live |= (uint64_t)(column_of(lane) < columns && row_of(lane) < rows) << lane;
-      finite &= !through_zero || p->d[0][lane] != 0 || p->d[1][lane] != 0 || p->d[2][lane] != 0;
+      unsigned c = qn_lane_column(lane), w = qn_lane_row(lane);
+      double any = 0;
+      for (int k = 0; k < 3; k++) {
+        any += fabs(p->across[k][c] + p->up[k][w]);
+      }
+      p->live |= (uint64_t)(c < columns && w < rows) << lane;
+      finite &= !through_zero || any > 0;
     }
   }
   return finite;
@@ -81,17 +76,22 @@ quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const q
       if (!fill_tile(grid, x, y, x1, y1, &packet)) {
         return QUOIN_E_ARGUMENT;
       }
-      quoin_status status = qn_look_packet(work, &packet, look, seen);
+      uint64_t met;
+      quoin_status status = qn_look_packet(work, &packet, look, seen, &met);
       if (status != QUOIN_OK) {
         return status;
       }
       packet.new_origins = !grid->converging, packet.new_directions = grid->converging;
       quoin_spot *tile = out + (y - y0) * (x1 - x0) + (x - x0);
-      for (unsigned lane = 0; lane < QN_LANES; lane++) {
-        if (packet.live >> lane & 1) {
-          int met = seen[lane].surface != QUOIN_NO_SURFACE;
-          tile[row_of(lane) * (x1 - x0) + column_of(lane)] = (quoin_spot){met ? seen[lane].t : 0, seen[lane].surface, met ? seen[lane].leaving : 0};
+      const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+      for (unsigned w = 0; w < rows; w++) {
+        for (unsigned c = 0; c < columns; c++) {
+          tile[w * (x1 - x0) + c] = (quoin_spot){.surface = QUOIN_NO_SURFACE};
         }
+      }
+      for (; met; met &= met - 1) {
+        unsigned lane = qn_trailing_zeros(met);
+        tile[qn_lane_row(lane) * (x1 - x0) + qn_lane_column(lane)] = (quoin_spot){seen[lane].t, seen[lane].surface, seen[lane].leaving};
       }
     }
   }

@@ -26,8 +26,8 @@ enum {
    rounding, a comparison of two nearly equal places. */
 quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out);
 
-/* The same for lanes that are in a packet already. */
-quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES]);
+/* The same for lanes that are in a packet already. *met: the lanes that meet a boundary; the others' entries are not set. */
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met);
 
 /* The unit normal, out of the solid, at t on the ray, from the surface's own double form; zero at a singular point. */
 void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]);

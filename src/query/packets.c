@@ -4,7 +4,13 @@
 #include <math.h>
 
 static quoin_ray ray_of(const qn_packet *p, unsigned lane) {
-  return (quoin_ray){{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
+  quoin_ray ray = {{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
+  if (p->tile != QN_TILE_NONE) { /* the body may not have filled it in */
+    for (int k = 0; k < 3; k++) {
+      (p->tile == QN_TILE_ORIGINS ? ray.o : ray.d)[k] = p->across[k][qn_lane_column(lane)] + p->up[k][qn_lane_row(lane)];
+    }
+  }
+  return ray;
 }
 
 /* One ray by the woven path. */
@@ -47,7 +53,7 @@ static int must_be_named(const quoin_scene *scene, uint32_t surface, unsigned wa
   return s->users > 1 && ((want & QN_LOOK_PART) || ((want & QN_LOOK_MATERIAL) && s->materials_differ));
 }
 
-quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES]) {
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
   const quoin_scene *scene = work->scene;
   qn_counts *counts = qn_scratch_counts(work->scratch);
   qn_packet_hits hits;
@@ -60,9 +66,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     counts->exact_rays += (uint64_t)__builtin_popcountll(hits.unsure);
   }
   uint64_t woven = hits.unsure;
-  for (unsigned lane = 0; lane < QN_LANES; lane++) {
-    out[lane].surface = QUOIN_NO_SURFACE;
-  }
+  *met = hits.found;
   for (uint64_t m = hits.found; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
     out[lane] = (qn_seen){hits.t[lane], hits.surface[lane], hits.leaf[lane], (uint8_t)(hits.leaving >> lane & 1)};
@@ -71,7 +75,13 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     }
   }
   if (want & QN_LOOK_T) {
-    for (uint64_t m = hits.found & ~woven; m; m &= m - 1) {
+    _Alignas(64) double rounded[QN_LANES];
+    uint64_t sure = work->wide->round(scene, packet, &hits, hits.found & ~woven, rounded, &counts->exact_forms);
+    for (uint64_t m = sure; m; m &= m - 1) {
+      unsigned lane = qn_trailing_zeros(m);
+      out[lane].t = rounded[lane];
+    }
+    for (uint64_t m = hits.found & ~woven & ~sure; m; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
       const quoin_ray ray = ray_of(packet, lane);
       quoin_status status = round_t(work, &ray, &hits, lane, &out[lane].t);
@@ -84,6 +94,8 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     unsigned lane = qn_trailing_zeros(m);
     const quoin_ray ray = ray_of(packet, lane);
     quoin_status status = look_woven(work, &ray, want, &out[lane]);
+    *met &= ~((uint64_t)1 << lane);
+    *met |= (uint64_t)(out[lane].surface != QUOIN_NO_SURFACE) << lane;
     if (status != QUOIN_OK) {
       return status;
     }
@@ -129,13 +141,15 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
     }
     packet.live = count == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << count) - 1;
     packet.new_origins = packet.new_directions = 1;
+    packet.tile = QN_TILE_NONE;
     qn_seen seen[QN_LANES];
-    quoin_status status = qn_look_packet(work, &packet, want, seen);
+    uint64_t met;
+    quoin_status status = qn_look_packet(work, &packet, want, seen, &met);
     if (status != QUOIN_OK) {
       return status;
     }
     for (size_t i = 0; i < count; i++) {
-      out[at + i] = seen[i];
+      out[at + i] = met >> i & 1 ? seen[i] : (qn_seen){.surface = QUOIN_NO_SURFACE};
     }
   }
   return QUOIN_OK;

@@ -82,8 +82,8 @@ static void fill(qn_ctx *ctx, const qn_exact_surface *form, const double pivot[3
     split(ctx, q[i], (int64_t)scale, &hi[i], &lo[i]);
     int degree = i < 6 ? 2 : i < 9 ? 1 : 0;
     most[degree] = fmax(most[degree], fabs(hi[i]));
-    if (hi[i] != 0) {
-      out->terms |= (uint16_t)(1u << i);
+    out->terms |= (uint16_t)((hi[i] != 0) << i);
+    if (qn_int_sign(q[i])) { /* also of a dropped term: the bounds need the size of its coordinates */
       out->axes |= (uint8_t)(degree == 2 ? 1u << PAIR[i][0] | 1u << PAIR[i][1] : degree == 1 ? 1u << (i - 6) : 0);
     }
   }

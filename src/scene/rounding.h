@@ -22,8 +22,8 @@ enum {
 
 typedef struct qn_rounding {
   double k[QN_ROUNDING_NUMBERS];
-  uint16_t terms; /* bit i: k_i is not 0 */
-  uint8_t axes;   /* bit j: y_j occurs */
+  uint16_t terms; /* bit i: k_i is kept */
+  uint8_t axes;   /* bit j: y_j occurs, if only in a term that was dropped */
   uint8_t sound;  /* 0: nothing above holds (a form too large): places on this surface are rounded elsewhere */
 } qn_rounding;
 

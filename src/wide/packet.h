@@ -12,6 +12,9 @@
 
 enum { QN_LANES = 64 };
 
+QN_INLINE unsigned qn_lane_column(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
+QN_INLINE unsigned qn_lane_row(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
+
 typedef struct qn_packet {
   _Alignas(64) double o[3][QN_LANES], d[3][QN_LANES]; /* d finite, not the zero vector */
   _Alignas(64) double from[QN_LANES], to[QN_LANES];
@@ -20,6 +23,10 @@ typedef struct qn_packet {
   /* What the body derives from the rays. Whoever fills a packet says what is new: a tile that keeps its origins or its
      directions keeps what follows from them. */
   int new_origins, new_directions;
+  /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
+     body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. */
+  enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS } tile;
+  double across[3][8], up[3][8];
   _Alignas(64) double idd[QN_LANES], inv[3][QN_LANES]; /* 1 / (d . d); 1 / d_i, or 0 where d_i = 0 */
   _Alignas(64) float omin[3][8], omax[3][8], imin[3][8], imax[3][8]; /* of each eight lanes, rounded outward; i: of inv, widened */
   double low[3], high[3], dabs[3], dd_min, dd_max; /* of all lanes: origins, |d_i|, d . d */
@@ -40,7 +47,12 @@ typedef struct qn_wide_counts { uint64_t nodes, leaves, packets; } qn_wide_count
 /* The first boundary at or after `from` and not after `to`. */
 typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 
-typedef struct qn_wide { const char *name; qn_first_fn first; } qn_wide;
+/* The doubles nearest to the hits of `lanes` (all of them found ones), into t (aligned to 64); the lanes for which it is certain that
+   they are. The other lanes' t is arbitrary: they go through qn_place_round. *made is increased by the exact forms made. */
+typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
+                                uint64_t *made);
+
+typedef struct qn_wide { const char *name; qn_first_fn first; qn_round_fn round; } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);
 

@@ -24,13 +24,20 @@ typedef struct walk {
   _Alignas(64) double tolerance[QN_LANES]; /* the sum of any two errors of this lane so far */
 } walk;
 
-static float down(double v) {
+/* A float at most, or at least, v: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
+QN_INLINE float down(double v) {
   float f = (float)v;
-  return (double)f > v ? nextafterf(f, -INFINITY) : f;
+  return f - (fabsf(f) * 0x1p-22f + 0x1p-126f);
 }
-static float up(double v) {
+QN_INLINE float up(double v) {
   float f = (float)v;
-  return (double)f < v ? nextafterf(f, INFINITY) : f;
+  return f + (fabsf(f) * 0x1p-22f + 0x1p-126f);
+}
+
+/* Byte k all ones where bit k is set. */
+QN_INLINE uint64_t eights(unsigned bits) {
+  uint64_t x = bits * 0x0101010101010101u & 0x8040201008040201u;
+  return ((x + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u) * 255;
 }
 
 /* --- order --------------------------------------------------------------------------------------------------------- */
@@ -108,11 +115,7 @@ QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
     omin[i] = fload(w->f.p->omin[i]), omax[i] = fload(w->f.p->omax[i]), imin[i] = fload(w->f.p->imin[i]), imax[i] = fload(w->f.p->imax[i]);
   }
   unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when);
-  uint64_t mask = 0;
-  for (int s = 0; s < SUBS; s++) {
-    mask |= (uint64_t)(meets >> s & 1 ? 0xff : 0) << (8 * s);
-  }
-  return mask;
+  return eights(meets);
 }
 
 /* --- one term ------------------------------------------------------------------------------------------------------ */
@@ -329,7 +332,69 @@ static uint64_t term_seek(walk *w, const qn_nterm *t, lanes *at, const lanes *li
   }
 }
 
+/* The place of entry becomes the best where it is sooner; of two leaves with this surface there, the first in the file is named. */
+QN_INLINE unsigned improve(walk *w, int g, vm m, vd t1, vd p1, lanes *best) {
+  int o = g * QN_W;
+  vm before, equal;
+  vd limit_t = vload(best->t + o), limit_p = vload(best->p + o);
+  order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
+  unsigned ties = vbits(equal);
+  vstore(best->t + o, vpick(before, t1, limit_t)), vstore(best->p + o, vpick(before, p1, limit_p));
+  if (QN_UNLIKELY(ties)) {
+    _Alignas(64) double p[QN_W];
+    vstore(p, p1);
+    for (int i = 0; i < QN_W; i++) {
+      if (ties >> i & 1) {
+        uint64_t x, y;
+        memcpy(&x, &p[i], 8), memcpy(&y, &best->p[o + i], 8);
+        if ((x >> 32 & QN_LEAF_BITS) < (y >> 32 & QN_LEAF_BITS)) {
+          best->p[o + i] = p[i];
+        }
+      }
+    }
+  }
+  return vbits(before) | ties;
+}
+
+/* A term that is one leaf of a kind known here: solved and compared without leaving the registers. */
+QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+  piece_constants k;
+  if (kind == QN_PIECE_SPHERE) {
+    sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k.sphere);
+  } else {
+    piece_prepare(w, head, &k);
+  }
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    int o = g * QN_W;
+    w->counts.leaves++;
+    stretch s = kind == QN_PIECE_SPHERE ? sphere_solve(&w->f, &k.sphere, g) : kind == QN_PIECE_BOX ? box_solve(&w->f, &k.box, g) : piece_solve(w, head, &k, g);
+    w->unsure |= (uint64_t)(vbits(s.unsure) & in) << o;
+    vm m = vand(s.hit, vmask(in)), before, equal, ahead;
+    if (!vbits(m)) {
+      continue;
+    }
+    vstore(w->tolerance + o, vmax(vload(w->tolerance + o), vmul(s.error, vset(2))));
+    vd start = vload(from->t + o), pstart = vload(from->p + o);
+    order(w, g, start, pstart, s.b, s.pb, &m, &ahead, &equal); /* not yet over */
+    m = vand(m, ahead);
+    order(w, g, start, pstart, s.a, s.pa, &m, &before, &equal);
+    *found |= (uint64_t)improve(w, g, m, vpick(before, s.a, start), vpick(before, s.pa, pstart), best) << o;
+  }
+}
+
 static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+  if (t->leaves == 1 && !t->minus && !t->plus) {
+    const qn_piece_head *head = piece_at(w, w->normal->leaves[t->leaf0]);
+    switch ((qn_piece_kind)head->kind) {
+    case QN_PIECE_SPHERE: leaf_enter(w, QN_PIECE_SPHERE, head, from, mask & ~w->unsure, best, found); return;
+    case QN_PIECE_BOX: leaf_enter(w, QN_PIECE_BOX, head, from, mask & ~w->unsure, best, found); return;
+    case QN_PIECE_ROUND: case QN_PIECE_MEET: case QN_PIECE_HARD: break;
+    }
+  }
   ends e;
   mask = term_solve(w, t, mask & ~w->unsure, &e);
   int plain = !t->minus && !t->plus;
@@ -348,26 +413,10 @@ static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t m
     m = vand(m, ahead);
     order(w, g, start, pstart, a, pa, &m, &before, &equal);
     vd t1 = vpick(before, a, start), p1 = vpick(before, pa, pstart);
-    order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
     if (plain) {
-      /* Of two leaves with this surface the first one in the file is named. */
-      unsigned ties = vbits(equal);
-      vstore(best->t + o, vpick(before, t1, limit_t)), vstore(best->p + o, vpick(before, p1, limit_p));
-      if (ties) {
-        _Alignas(64) double p[QN_W];
-        vstore(p, p1);
-        for (int i = 0; i < QN_W; i++) {
-          if (ties >> i & 1) {
-            uint64_t x, y;
-            memcpy(&x, &p[i], 8), memcpy(&y, &best->p[o + i], 8);
-            if ((x >> 32 & 0x7fffffff) < (y >> 32 & 0x7fffffff)) {
-              best->p[o + i] = p[i];
-            }
-          }
-        }
-      }
-      *found |= (uint64_t)(vbits(before) | ties) << o;
+      *found |= (uint64_t)improve(w, g, m, t1, p1, best) << o;
     } else {
+      order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
       m = vand(m, before);
       vstore(at.t + o, t1), vstore(at.p + o, p1);
       vm sooner; /* the sooner of b and best bounds the search */
@@ -443,20 +492,33 @@ static uint64_t term_leave(walk *w, const qn_nterm *t, lanes *at, uint64_t mask)
   return held;
 }
 
-/* The largest place still of interest, as a float bound. */
-static float latest(const lanes *best, uint64_t mask) {
-  double last = -INFINITY;
-  for (uint64_t m = mask; m; m &= m - 1) {
-    last = most(last, best->t[qn_trailing_zeros(m)]);
+/* Bounds of the places of some lanes, as floats. */
+QN_INLINE void span_of(const lanes *at, uint64_t mask, float *first, float *last) {
+  vd low = vset(INFINITY), high = vset(-INFINITY);
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (in) {
+      vm m = vmask(in);
+      vd t = vload(at->t + g * QN_W);
+      low = vpick(m, vmin(low, t), low), high = vpick(m, vmax(high, t), high);
+    }
   }
-  return last > 0 ? up(last * (1 + 0x1p-20)) : up(last * (1 - 0x1p-20));
+  _Alignas(64) double x[QN_W], y[QN_W];
+  vstore(x, low), vstore(y, high);
+  for (int i = 1; i < QN_W; i++) {
+    x[0] = least(x[0], x[i]), y[0] = most(y[0], y[i]);
+  }
+  *first = down(x[0] - fabs(x[0]) * 0x1p-20), *last = up(y[0] + fabs(y[0]) * 0x1p-20);
 }
-static float earliest(const lanes *from, uint64_t mask) {
-  double first = INFINITY;
-  for (uint64_t m = mask; m; m &= m - 1) {
-    first = least(first, from->t[qn_trailing_zeros(m)]);
-  }
-  return first < 0 ? down(first * (1 + 0x1p-20)) : down(first * (1 - 0x1p-20));
+static float latest(const lanes *at, uint64_t mask) {
+  float first, last;
+  span_of(at, mask, &first, &last);
+  return last;
+}
+static float earliest(const lanes *at, uint64_t mask) {
+  float first, last;
+  span_of(at, mask, &first, &last);
+  return first;
 }
 
 static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
@@ -561,11 +623,7 @@ static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask
       for (int i = 0; i < 3; i++) {
         in &= fle(fset(t->min[i]), fload(s.max[i])) & fle(fload(s.min[i]), fset(t->max[i]));
       }
-      uint64_t lanes_in = 0;
-      for (int k = 0; k < SUBS; k++) {
-        lanes_in |= (uint64_t)(in >> k & 1 ? 0xff : 0) << (8 * k);
-      }
-      lanes_in &= mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
+      uint64_t lanes_in = eights(in) & mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
       if (lanes_in) {
         moved |= term_leave(w, t, at, lanes_in);
       }
@@ -623,6 +681,38 @@ static void see_origins(qn_packet *p) {
   }
 }
 
+/* Eight lanes are four columns and two rows (packet.h); sums of what is monotone are extreme in the corners. */
+static void see_tile_origins(qn_packet *p) {
+  for (int i = 0; i < 3; i++) {
+    double x[2][2], y[4][2];
+    for (int h = 0; h < 2; h++) {
+      double a = p->across[i][4 * h], b = p->across[i][4 * h + 3];
+      x[h][0] = least(a, b), x[h][1] = most(a, b);
+    }
+    for (int h = 0; h < 4; h++) {
+      double a = p->up[i][2 * h], b = p->up[i][2 * h + 1];
+      y[h][0] = least(a, b), y[h][1] = most(a, b);
+    }
+    for (int k = 0; k < SUBS; k++) {
+      int c = k >> 1 & 1, r = (k & 1) | (k >> 1 & 2);
+      p->omin[i][k] = down(x[c][0] + y[r][0]), p->omax[i][k] = up(x[c][1] + y[r][1]);
+    }
+    p->low[i] = least(x[0][0], x[1][0]) + least(y[0][0], y[3][0]);
+    p->high[i] = most(x[0][1], x[1][1]) + most(y[0][1], y[3][1]);
+  }
+}
+
+static void fill_tile(qn_packet *p, double (*to)[QN_LANES]) {
+  for (int i = 0; i < 3; i++) {
+    for (unsigned q = 0; q < QN_LANES / 4; q++) { /* four lanes are two columns and two rows */
+      unsigned c = (q & 1) << 1 | (q >> 1 & 2) << 1, r = (q >> 1 & 1) << 1 | (q >> 2 & 2) << 1;
+      double *t = to[i] + 4 * q, a = p->across[i][c], b = p->across[i][c + 1], v = p->up[i][r], w = p->up[i][r + 1];
+      t[0] = a + v, t[1] = b + v;
+      t[2] = a + w, t[3] = b + w;
+    }
+  }
+}
+
 static void see_directions(qn_packet *p) {
   const vd zero = vset(0), one = vset(1);
   for (int g = 0; g < QN_LANES; g += QN_W) {
@@ -660,7 +750,12 @@ static void see_directions(qn_packet *p) {
 static void facts(walk *w, qn_packet *p) {
   packet_facts *f = &w->f;
   f->p = p;
-  if (p->new_origins) {
+  if (p->tile == QN_TILE_DIRECTIONS) {
+    fill_tile(p, p->d);
+  }
+  if (p->tile == QN_TILE_ORIGINS) {
+    see_tile_origins(p);
+  } else if (p->new_origins) {
     see_origins(p);
   }
   if (p->new_directions) {
@@ -684,6 +779,18 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   walk w;
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
   facts(&w, packet);
+  hits->unsure = hits->found = hits->leaving = hits->far_end = 0;
+  const qn_union *root = &scene->normal.unions[scene->normal.root];
+  if (root->wide == 0) { /* nothing near: no ray need be made */
+    _Alignas(32) float near[8];
+    counts->packets++, counts->nodes++;
+    if (root->root == QN_NO_ROOT || !node_meets(&w, &scene->normal.nodes[root->root], -INFINITY, INFINITY, near)) {
+      return;
+    }
+  }
+  if (packet->tile == QN_TILE_ORIGINS) {
+    fill_tile(packet, packet->o);
+  }
   lanes start, best;
   const double nobody = payload_bits(QN_NOBODY);
   const vd none = vset(nobody);
@@ -698,10 +805,10 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   uint64_t mask = packet->live, leaving = 0;
   uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
-  for (uint64_t m = found; m; m &= m - 1) {
-    unsigned k = qn_trailing_zeros(m);
-    within |= (uint64_t)!memcmp(&best.p[k], &start.p[k], 8) << k;
+  for (int g = 0; g < QN_GROUPS; g++) {
+    within |= (uint64_t)vsigns(vload(best.p + g * QN_W)) << (g * QN_W); /* QN_STARTS_ON */
   }
+  within &= found;
   if (within) {
     lanes at = start;
     uint64_t left = union_leave(&w, scene->normal.root, &at, within);
@@ -729,8 +836,8 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     hits->t[k] = best.t[k];
     hits->error[k] = w.tolerance[k] / 2;
     hits->surface[k] = (uint32_t)payload;
-    hits->leaf[k] = (uint32_t)(payload >> 32) & 0x7fffffff;
-    hits->far_end |= (payload >> 63) << k;
+    hits->leaf[k] = (uint32_t)(payload >> 32) & QN_LEAF_BITS;
+    hits->far_end |= (payload >> 62 & 1) << k;
   }
   counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves, counts->packets++;
 }

@@ -19,10 +19,11 @@ enum { QN_GROUPS = QN_LANES / QN_W };
 #define QN_FAR 0x1p+500 /* an end that is not there */
 #define QN_NOBODY 0xffffffffu
 
-/* A payload is the surface (low half), the leaf, and in the top bit whether it is the larger of the surface's two roots; it
+/* A payload is the surface (low half), the leaf, and in a bit near the top whether it is the larger of the surface's two roots; it
    travels in the lanes of a vd as bits, moved and never computed with. */
-#define QN_LARGER_ROOT ((uint64_t)1 << 63)
-#define QN_STARTS_ON ((uint64_t)1 << 62) /* the place where a ray starts on a surface: it equals either root there */
+#define QN_LARGER_ROOT ((uint64_t)1 << 62)
+#define QN_LEAF_BITS 0x3fffffffu /* of the upper half */
+#define QN_STARTS_ON ((uint64_t)1 << 63) /* the place where a ray starts on a surface: it equals either root there */
 QN_INLINE double payload_bits(uint64_t payload) {
   double d;
   memcpy(&d, &payload, sizeof d);

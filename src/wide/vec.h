@@ -31,11 +31,13 @@ QN_INLINE vd vmax(vd a, vd b) { return _mm512_max_pd(a, b); }
 QN_INLINE vd vabs(vd a) { return _mm512_abs_pd(a); }
 QN_INLINE vm vlt(vd a, vd b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
 QN_INLINE vm vle(vd a, vd b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
+QN_INLINE vm veq(vd a, vd b) { return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ); }
 QN_INLINE vm vand(vm a, vm b) { return (vm)(a & b); }
 QN_INLINE vm vor(vm a, vm b) { return (vm)(a | b); }
 QN_INLINE vm vandnot(vm a, vm b) { return (vm)(a & ~b); } /* a and not b */
 QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm512_mask_blend_pd(m, b, a); } /* m ? a : b */
 QN_INLINE unsigned vbits(vm m) { return m; }
+QN_INLINE unsigned vsigns(vd a) { return _mm512_movepi64_mask(_mm512_castpd_si512(a)); } /* lanes with the sign bit set */
 QN_INLINE vm vmask(unsigned bits) { return (vm)bits; }
 
 #elif defined(QN_ISA_AVX2)
@@ -57,11 +59,13 @@ QN_INLINE vd vmax(vd a, vd b) { return _mm256_max_pd(a, b); }
 QN_INLINE vd vabs(vd a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
 QN_INLINE vm vlt(vd a, vd b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
 QN_INLINE vm vle(vd a, vd b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
+QN_INLINE vm veq(vd a, vd b) { return _mm256_cmp_pd(a, b, _CMP_EQ_OQ); }
 QN_INLINE vm vand(vm a, vm b) { return _mm256_and_pd(a, b); }
 QN_INLINE vm vor(vm a, vm b) { return _mm256_or_pd(a, b); }
 QN_INLINE vm vandnot(vm a, vm b) { return _mm256_andnot_pd(b, a); }
 QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm256_blendv_pd(b, a, m); }
 QN_INLINE unsigned vbits(vm m) { return (unsigned)_mm256_movemask_pd(m); }
+QN_INLINE unsigned vsigns(vd a) { return (unsigned)_mm256_movemask_pd(a); }
 QN_INLINE vm vmask(unsigned bits) {
   const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
   return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)bits), lane), lane));
@@ -86,17 +90,48 @@ QN_INLINE vd vmax(vd a, vd b) { return _mm_max_pd(a, b); }
 QN_INLINE vd vabs(vd a) { return _mm_andnot_pd(_mm_set1_pd(-0.0), a); }
 QN_INLINE vm vlt(vd a, vd b) { return _mm_cmplt_pd(a, b); }
 QN_INLINE vm vle(vd a, vd b) { return _mm_cmple_pd(a, b); }
+QN_INLINE vm veq(vd a, vd b) { return _mm_cmpeq_pd(a, b); }
 QN_INLINE vm vand(vm a, vm b) { return _mm_and_pd(a, b); }
 QN_INLINE vm vor(vm a, vm b) { return _mm_or_pd(a, b); }
 QN_INLINE vm vandnot(vm a, vm b) { return _mm_andnot_pd(b, a); }
 QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)); }
 QN_INLINE unsigned vbits(vm m) { return (unsigned)_mm_movemask_pd(m); }
+QN_INLINE unsigned vsigns(vd a) { return (unsigned)_mm_movemask_pd(a); }
 QN_INLINE vm vmask(unsigned bits) {
   return _mm_castsi128_pd(_mm_set_epi64x(bits & 2 ? -1 : 0, bits & 1 ? -1 : 0));
 }
 #endif
 
 #define QN_ALL_BITS ((1u << QN_W) - 1)
+
+/* The name of a function that every instruction set has its own body of: QN_OF_ISA(qn_first) is qn_first_avx2 and so on. */
+#define QN_JOIN_AGAIN_(name, isa) name##_##isa
+#define QN_JOIN_(name, isa) QN_JOIN_AGAIN_(name, isa)
+#define QN_OF_ISA(name) QN_JOIN_(name, QN_ISA_NAME)
+#define QN_FIRST QN_OF_ISA(qn_first)
+
+/* --- exact sums and products: hi the rounded result, lo what it lacks (number/dd.h has the sources) ----------------- */
+typedef struct vdd { vd hi, lo; } vdd;
+QN_INLINE vdd vtwo_sum(vd a, vd b) {
+  vd s = vadd(a, b), t = vsub(s, a);
+  return (vdd){s, vadd(vsub(a, vsub(s, t)), vsub(b, t))};
+}
+QN_INLINE vdd vtwo_difference(vd a, vd b) {
+  vd s = vsub(a, b), t = vsub(s, a);
+  return (vdd){s, vsub(vsub(a, vsub(s, t)), vadd(b, t))};
+}
+/* Exact barring over- and underflow. */
+QN_INLINE vdd vtwo_product(vd a, vd b) {
+  vd p = vmul(a, b);
+#if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
+  return (vdd){p, vfms(a, b, p)};
+#else
+  const vd split = vset(134217729.0); /* 2^27 + 1 */
+  vd ca = vmul(split, a), ah = vsub(ca, vsub(ca, a)), al = vsub(a, ah);
+  vd cb = vmul(split, b), bh = vsub(cb, vsub(cb, b)), bl = vsub(b, bh);
+  return (vdd){p, vadd(vadd(vadd(vsub(vmul(ah, bh), p), vmul(ah, bl)), vmul(al, bh)), vmul(al, bl))};
+#endif
+}
 
 /* --- eight floats ----------------------------------------------------------------------------------------------- */
 #if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)

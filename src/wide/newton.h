@@ -1,0 +1,102 @@
+/* One Newton step against QN_W places at once, precise enough to round a place to the nearest double, and the test that says when
+   it did. Static code, included by the body that is compiled for each instruction set (round.wide.c) and by its test.
+
+   Legend: q the surface's form about its pivot c (scene/rounding.h), y = o - c + t d, p(t) = q(y), r the root, |r - t| <= e. Low
+   parts are a unit or so in the last place of what they belong to; what is of second order to them is dropped. With rho = r - t,
+   p + p' rho + a rho^2 = 0 exactly (p, p' at t, a = q2(d)). Where |a| e and the slope's error are together below half of |p'^|,
+   |rho| <= g = 2 |p| / |p'^|, so that delta = -p^/p'^ has
+       |rho - delta| <= (|p - p^| + |p' - p'^| g + |a| g^2) / |p'^|.
+   Then Ziv's test, as in ray/round.c. Bounds: docs/bounds.md, QN_ROUND_EVAL, QN_ROUND_SLOPE. */
+#ifndef QN_WIDE_NEWTON_H
+#define QN_WIDE_NEWTON_H
+
+#include "base/bounds.h"
+#include "scene/rounding.h"
+#include "wide/vec.h"
+
+/* A surface's numbers for QN_W lanes: one surface for all of them (shared), or number i of lane j at k[i * QN_W + j]. terms and
+   axes: of any of the surfaces. */
+typedef struct surface_numbers {
+  const double *k;
+  unsigned terms, axes;
+  int shared;
+} surface_numbers;
+QN_INLINE vd number_of(const surface_numbers *f, int i) { return f->shared ? vset(f->k[i]) : vload(f->k + i * QN_W); }
+QN_INLINE vd hi_of(const surface_numbers *f, int i) { return number_of(f, QN_ROUNDING_HI + i); }
+QN_INLINE vd lo_of(const surface_numbers *f, int i) { return number_of(f, QN_ROUNDING_LO + i); }
+
+typedef struct rough_places { vd o[3], d[3], t, e; } rough_places;
+
+/* p and p' at t; bounds of their errors and of |a|; the lanes in whose range the bounds hold. */
+typedef struct residual { vd p, slope, p_error, slope_error, curve; vm sound; } residual;
+
+/* sum += (hi + lo) x */
+QN_INLINE void add_term(vdd *sum, vd hi, vd lo, vd x) {
+  vdd p = vtwo_product(hi, x), s = vtwo_sum(sum->hi, p.hi);
+  sum->hi = s.hi;
+  sum->lo = vadd(sum->lo, vadd(s.lo, vfma(lo, x, p.lo)));
+}
+
+/* The coefficient of y_i y_j, and the terms of row i of the form: (A x + D y + E z + G) x + (B y + F z + H) y + (C z + I) z + J. */
+static const int PLACE_OF_PRODUCT[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+static const unsigned ROW_TERMS[3] = {1u << 0 | 1u << 3 | 1u << 4 | 1u << 6, 1u << 1 | 1u << 5 | 1u << 7, 1u << 2 | 1u << 8};
+
+QN_INLINE residual residual_at(const surface_numbers *f, const rough_places *at) {
+  const vd zero = vset(0);
+  vd y[3] = {zero, zero, zero}, low[3] = {zero, zero, zero}, g[3] = {zero, zero, zero}, S = zero, D = zero;
+  for (int j = 0; j < 3; j++) {
+    if (f->axes >> j & 1) {
+      vdd w = vtwo_difference(at->o[j], number_of(f, QN_ROUNDING_PIVOT + j)), m = vtwo_product(at->t, at->d[j]), x = vtwo_sum(w.hi, m.hi);
+      y[j] = x.hi, low[j] = vadd(vadd(w.lo, m.lo), x.lo);
+      S = vadd(S, vadd(vabs(w.hi), vabs(m.hi))), D = vadd(D, vabs(at->d[j]));
+    }
+  }
+  vdd p = {hi_of(f, 9), lo_of(f, 9)};
+  for (int i = 0; i < 3; i++) {
+    if (!(f->terms & ROW_TERMS[i])) {
+      continue;
+    }
+    vdd row = {hi_of(f, 6 + i), lo_of(f, 6 + i)};
+    for (int j = i; j < 3; j++) {
+      if (f->terms >> PLACE_OF_PRODUCT[i][j] & 1) {
+        add_term(&row, hi_of(f, PLACE_OF_PRODUCT[i][j]), lo_of(f, PLACE_OF_PRODUCT[i][j]), y[j]);
+        g[j] = vfma(hi_of(f, PLACE_OF_PRODUCT[i][j]), y[i], g[j]);
+      }
+    }
+    g[i] = vadd(g[i], row.hi);
+    add_term(&p, row.hi, row.lo, y[i]);
+  }
+  vd slope = zero, rest = zero;
+  for (int j = 0; j < 3; j++) {
+    if (f->axes >> j & 1) {
+      slope = vfma(g[j], at->d[j], slope), rest = vfma(g[j], low[j], rest);
+    }
+  }
+  vd K2 = number_of(f, QN_ROUNDING_SQUARE), K1 = number_of(f, QN_ROUNDING_LINEAR), K0 = number_of(f, QN_ROUNDING_CONSTANT);
+  vd KS = vmul(K2, S);
+  residual r = {.p = vadd(p.hi, vadd(p.lo, rest)), .slope = slope};
+  r.p_error = vmul(vset(QN_ROUND_EVAL), vfma(vadd(KS, K1), S, K0));
+  r.slope_error = vmul(vmul(vset(QN_ROUND_SLOPE), D), vadd(vadd(KS, KS), K1));
+  r.curve = vmul(vmul(K2, D), D);
+  r.sound = vand(vle(S, vset(QN_ROUND_LARGEST)), vand(vle(vset(1 / QN_ROUND_WIDEST), D), vle(D, vset(QN_ROUND_WIDEST))));
+  return r;
+}
+
+/* The lanes whose *out is certainly the double nearest to their root. */
+QN_INLINE vm round_places(const surface_numbers *f, const rough_places *at, vd *out) {
+  const vd slack = vset(QN_SLACK), four_u = vset(4 * QN_U), zero = vset(0);
+  residual r = residual_at(f, at);
+  vd steep = vabs(r.slope), bend = vmul(slack, vfma(r.curve, at->e, r.slope_error));
+  vm alone = vlt(vadd(bend, bend), steep);
+  vd inverse = vdiv(vset(1), r.slope), size = vabs(inverse), step = vmul(r.p, inverse); /* -delta */
+  vd length = vabs(step), g = vmul(vset(2), vfma(r.p_error, size, length));
+  vd error = vfma(vfma(vfma(r.curve, g, r.slope_error), g, r.p_error), size, vmul(four_u, length));
+  vdd sum = vtwo_difference(at->t, step);
+  error = vmul(slack, vfma(four_u, vabs(sum.lo), vmul(slack, error)));
+  vm same = vand(veq(vadd(sum.hi, vadd(sum.lo, error)), sum.hi), veq(vadd(sum.hi, vsub(sum.lo, error)), sum.hi));
+  vm nonzero = vor(vlt(sum.hi, zero), vlt(zero, sum.hi));
+  *out = sum.hi;
+  return vand(vand(same, nonzero), vand(alone, r.sound));
+}
+
+#endif
