@@ -103,7 +103,7 @@
      |p^(t) - p(t)| <= QN_ROUND_EVAL (K2 S^2 + K1 S + K0) + u |p^|,  |p'^ - p'| <= QN_ROUND_SLOPE D (2 K2 S + K1),  |a| <= K2 D^2
    for S <= QN_ROUND_LARGEST and D within QN_ROUND_WIDEST and its inverse. Coefficients below 2^QN_ROUND_DROP are dropped: the three
    sizes named tiny, added to K2, K1 and K0, cover that and any underflow. */
-#define QN_ROUND_EVAL 0x1p-97
+#define QN_ROUND_EVAL 0x1p-98
 #define QN_ROUND_SLOPE (32 * QN_U)
 #define QN_ROUND_DROP (-240)
 #define QN_ROUND_SQUARE_TINY 0x1p-236

@@ -16,6 +16,7 @@ static int fill_shared(const quoin_grid *g, qn_packet *p) {
     p->on[lane] = QUOIN_NO_SURFACE;
   }
   p->new_origins = p->new_directions = 1;
+  p->few = 0;
   p->tile = g->converging ? QN_TILE_DIRECTIONS : QN_TILE_ORIGINS;
   return finite3(g->o) && finite3(g->u) && finite3(g->v) && finite3(g->d) && (g->converging || g->d[0] != 0 || g->d[1] != 0 || g->d[2] != 0);
 }

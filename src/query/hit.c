@@ -72,41 +72,6 @@ static quoin_status describe(quoin_work *work, const quoin_ray *ray, double t, u
   return QUOIN_OK;
 }
 
-quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out) {
-  if (!scene || !work || work->scene != scene || !ray || !out) {
-    return QUOIN_E_ARGUMENT;
-  }
-  int any = 0;
-  for (int i = 0; i < 3; i++) {
-    if (!isfinite(ray->o[i]) || !isfinite(ray->d[i])) {
-      return QUOIN_E_ARGUMENT;
-    }
-    any |= ray->d[i] != 0;
-  }
-  if (!any || !(ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL)) {
-    return QUOIN_E_ARGUMENT;
-  }
-  *out = (quoin_hit){.part = QUOIN_NO_PART};
-  qn_query_begin(work);
-  qn_line line;
-  qn_line_from_doubles(ray->o, ray->d, &line);
-  const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
-  qn_woven woven;
-  quoin_status status = qn_weave(scene, work->scratch, &line, &range, QN_WANT_FIRST, &woven);
-  if (status != QUOIN_OK || woven.inside_count == 0) {
-    return status;
-  }
-  const qn_stretch *first = &woven.inside[0];
-  int leaving = first->enter.leaf == UINT32_MAX; /* inside from the beginning on */
-  const qn_stop *stop = leaving ? &first->leave : &first->enter;
-  if (stop->leaf == UINT32_MAX) {
-    return QUOIN_OK; /* inside all along */
-  }
-  const double t = qn_place_round(scene, work->scratch, &line, &stop->place);
-  status = describe(work, ray, t, stop->leaf, stop->half, leaving, out);
-  return status == QUOIN_OK ? qn_scratch_ctx(work->scratch)->failed : status;
-}
-
 static int is_ray(const quoin_ray *ray) {
   double all = 0, any = 0;
   for (int i = 0; i < 3; i++) {
@@ -149,4 +114,8 @@ quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t
     }
   }
   return QUOIN_OK;
+}
+
+quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out) {
+  return quoin_first_hits(scene, work, 1, ray, out);
 }

@@ -60,7 +60,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   hits.found = 0, hits.unsure = packet->live;
   if (scene->normal.made) {
     qn_wide_counts wide = {0};
-    work->wide->first(scene, packet, &hits, &wide);
+    (packet->few ? work->wide->few : work->wide->first)(scene, packet, &hits, &wide);
     counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
     counts->rays += (uint64_t)__builtin_popcountll(packet->live & ~hits.unsure);
     counts->exact_rays += (uint64_t)__builtin_popcountll(hits.unsure);
@@ -118,41 +118,51 @@ static int go_together(const quoin_ray *rays, size_t n) {
   return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2] > 0.9 * (double)(n * n);
 }
 
+/* Puts rays into the first lanes of a packet and repeats the last in the others up to `lanes`. */
+static void fill(qn_packet *p, size_t lanes, size_t n, const quoin_ray *rays, const uint32_t *on) {
+  for (size_t lane = 0; lane < lanes; lane++) {
+    size_t i = lane < n ? lane : n - 1;
+    for (int k = 0; k < 3; k++) {
+      p->o[k][lane] = rays[i].o[k], p->d[k][lane] = rays[i].d[k];
+    }
+    p->from[lane] = rays[i].from, p->to[lane] = rays[i].to;
+    p->on[lane] = on ? on[i] : QUOIN_NO_SURFACE;
+  }
+  p->live = n == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << n) - 1;
+  p->few = lanes == QN_FEW;
+  p->new_origins = p->new_directions = 1;
+  p->tile = QN_TILE_NONE;
+}
+
+static quoin_status look_together(quoin_work *work, qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
+  qn_seen seen[QN_LANES];
+  uint64_t met;
+  fill(packet, lanes, n, rays, on);
+  quoin_status status = qn_look_packet(work, packet, want, seen, &met);
+  for (size_t i = 0; i < n; i++) {
+    out[i] = met >> i & 1 ? seen[i] : (qn_seen){.surface = QUOIN_NO_SURFACE};
+  }
+  return status;
+}
+
 quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
   qn_packet packet;
-  for (size_t at = 0; at < n; at += QN_LANES) {
-    size_t count = n - at < QN_LANES ? n - at : QN_LANES;
-    if (count < 8 || !work->scene->normal.made || !go_together(rays + at, count)) {
-      for (size_t i = at; i < at + count; i++) {
-        quoin_status status = look_woven(work, &rays[i], want, &out[i]);
-        if (status != QUOIN_OK) {
-          return status;
-        }
-      }
+  quoin_status status = QUOIN_OK;
+  for (size_t run = 0; run < n && status == QUOIN_OK; run += QN_LANES) {
+    size_t in_run = n - run < QN_LANES ? n - run : QN_LANES;
+    if (in_run > 2 * QN_FEW && go_together(rays + run, in_run)) {
+      status = look_together(work, &packet, QN_LANES, in_run, rays + run, on ? on + run : NULL, want, out + run);
       continue;
     }
-    for (size_t lane = 0; lane < QN_LANES; lane++) {
-      const quoin_ray *r = &rays[at + (lane < count ? lane : count - 1)];
-      for (int k = 0; k < 3; k++) {
-        packet.o[k][lane] = r->o[k], packet.d[k][lane] = r->d[k];
+    for (size_t at = run; at < run + in_run && status == QUOIN_OK;) { /* a few, or one by one */
+      size_t count = run + in_run - at < QN_FEW ? run + in_run - at : QN_FEW, step = count;
+      count = count > 1 && !go_together(rays + at, count) ? 1 : count;
+      for (step += at; at < step && status == QUOIN_OK; at += count) {
+        status = look_together(work, &packet, QN_FEW, count, rays + at, on ? on + at : NULL, want, out + at);
       }
-      packet.from[lane] = r->from, packet.to[lane] = r->to;
-      packet.on[lane] = on ? on[at + (lane < count ? lane : count - 1)] : QUOIN_NO_SURFACE;
-    }
-    packet.live = count == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << count) - 1;
-    packet.new_origins = packet.new_directions = 1;
-    packet.tile = QN_TILE_NONE;
-    qn_seen seen[QN_LANES];
-    uint64_t met;
-    quoin_status status = qn_look_packet(work, &packet, want, seen, &met);
-    if (status != QUOIN_OK) {
-      return status;
-    }
-    for (size_t i = 0; i < count; i++) {
-      out[at + i] = met >> i & 1 ? seen[i] : (qn_seen){.surface = QUOIN_NO_SURFACE};
     }
   }
-  return QUOIN_OK;
+  return status;
 }
 
 void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]) {

@@ -10,7 +10,7 @@
 #include "scene/normal.h"
 #include "scene/scene.h"
 
-enum { QN_LANES = 64 };
+enum { QN_LANES = 64, QN_FEW = 8 };
 
 QN_INLINE unsigned qn_lane_column(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
 QN_INLINE unsigned qn_lane_row(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
@@ -23,6 +23,7 @@ typedef struct qn_packet {
   /* What the body derives from the rays. Whoever fills a packet says what is new: a tile that keeps its origins or its
      directions keeps what follows from them. */
   int new_origins, new_directions;
+  int few; /* only the first QN_FEW lanes are there */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
      body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. */
   enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS } tile;
@@ -52,7 +53,12 @@ typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, 
 typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
                                 uint64_t *made);
 
-typedef struct qn_wide { const char *name; qn_first_fn first; qn_round_fn round; } qn_wide;
+typedef struct qn_wide {
+  const char *name;
+  qn_first_fn first; /* all QN_LANES lanes: every lane's numbers must be there, live or not */
+  qn_first_fn few;   /* the first QN_FEW lanes alone, as quick as those need; no tiles */
+  qn_round_fn round;
+} qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);
 

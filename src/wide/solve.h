@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { QN_GROUPS = QN_LANES / QN_W };
+enum { QN_GROUPS = QN_LANES_NOW / QN_W };
 #define QN_FAR 0x1p+500 /* an end that is not there */
 #define QN_NOBODY 0xffffffffu
 

@@ -108,7 +108,6 @@ QN_INLINE vm vmask(unsigned bits) {
 #define QN_JOIN_AGAIN_(name, isa) name##_##isa
 #define QN_JOIN_(name, isa) QN_JOIN_AGAIN_(name, isa)
 #define QN_OF_ISA(name) QN_JOIN_(name, QN_ISA_NAME)
-#define QN_FIRST QN_OF_ISA(qn_first)
 
 /* --- exact sums and products: hi the rounded result, lo what it lacks (number/dd.h has the sources) ----------------- */
 typedef struct vdd { vd hi, lo; } vdd;

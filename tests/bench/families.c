@@ -149,33 +149,34 @@ static int near30(uint64_t *g, int kind, solver_case *c) {
   return T[0] != 0 || T[1] != 0 || T[2] != 0;
 }
 
-/* A point with whole coordinates on a quadric with whole coefficients: size bounds the factor by which a small one is multiplied. */
+/* A point with whole coordinates on a quadric with whole coefficients: size bounds the factor by which a small one is multiplied; with size 0 it
+   lies on an axis, so that small steps off it are doubles. */
 static void whole_point(uint64_t *g, int kind, int size, placed *s, long X[3]) {
   static const int TRIPLES[][4] = {{1, 2, 2, 3}, {2, 3, 6, 7}, {1, 4, 8, 9}, {2, 6, 9, 11}, {4, 4, 7, 9}};
   static const int PAIRS[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}};
-  long m = whole(g, 1, size);
+  long m = whole(g, 1, size ? size : 1);
   canonical(kind, s);
   memset(s->M, 0, sizeof s->M);
   s->M[0][0] = s->M[1][1] = s->M[2][2] = 1;
-  if (kind == SPHERE || kind == ELLIPSOID) {
-    const int *t = TRIPLES[whole(g, 0, size > 1 ? 4 : 1)];
+  if (kind == ELLIPSOID) {
+    s->M[1][1] = 2, s->M[2][2] = 4;
+  }
+  if (size == 0) {
+    X[0] = 1, X[1] = 0, X[2] = kind == CONE || kind == PARABOLOID;
+  } else if (kind == SPHERE || kind == ELLIPSOID) {
+    const int *t = TRIPLES[whole(g, 0, 4)];
     for (int i = 0; i < 3; i++) {
       X[i] = m * t[i];
     }
     s->k = -(double)(m * m * t[3] * t[3]);
-    if (kind == ELLIPSOID) {
-      s->M[1][1] = 2, s->M[2][2] = 4;
-    }
   } else if (kind == CYLINDER || kind == CONE) {
-    const int *t = PAIRS[whole(g, 0, size > 1 ? 3 : 0)];
+    const int *t = PAIRS[whole(g, 0, 3)];
     X[0] = m * t[0], X[1] = m * t[1], X[2] = kind == CONE ? m * t[2] : whole(g, -size, size);
     s->k = kind == CONE ? 0 : -(double)(m * m * t[2] * t[2]);
   } else if (kind == PARABOLOID) {
-    int most = size > 1 ? 60 : 2;
-    X[0] = whole(g, 1, most), X[1] = whole(g, 1, most), X[2] = X[0] * X[0] + X[1] * X[1];
+    X[0] = whole(g, 1, 60), X[1] = whole(g, 1, 60), X[2] = X[0] * X[0] + X[1] * X[1];
   } else {
-    int most = size > 1 ? 3 * size : 3;
-    X[0] = 1, X[1] = X[2] = whole(g, 1, most);
+    X[0] = 1, X[1] = X[2] = whole(g, 1, 3 * size);
   }
 }
 
@@ -188,14 +189,14 @@ static long divisor(long a, long b) {
   return a < 0 ? -a : a;
 }
 
-/* A tangent at a whole point, moved off by `off` times the gradient; 0 when it cannot be in doubles. spread: of the numbers that turn it;
-   far: how many times its direction it starts before the point, at most. */
-static int tangent(uint64_t *g, int kind, int size, int place, int spread, int far, double off, solver_case *c) {
+/* A tangent at a whole point, moved off by `off` times the gradient; 0 when it cannot be in doubles. reduced: its direction is given in the smallest
+   whole numbers; far: how many times its direction it starts before the point, at most. */
+static int tangent(uint64_t *g, int kind, int size, int place, int reduced, int far, double off, solver_case *c) {
   long X[3], n[3], w[3], T[3];
   whole_point(g, kind, size, &c->solid, X);
   for (int i = 0; i < 3; i++) {
     n[i] = (long)(2 * c->solid.s[i]) * X[i] + (i == 2 ? (long)(2 * c->solid.l) : 0);
-    w[i] = whole(g, -spread, spread);
+    w[i] = whole(g, -2, 2);
     c->solid.p[i] = whole(g, -place, place);
   }
   for (int i = 0; i < 3; i++) {
@@ -205,6 +206,7 @@ static int tangent(uint64_t *g, int kind, int size, int place, int spread, int f
   if (common == 0) {
     return 0;
   }
+  common = reduced ? common : 1;
   int exact = 1;
   for (int i = 0; i < 3; i++) {
     T[i] /= common;
@@ -219,10 +221,10 @@ static int tangent(uint64_t *g, int kind, int size, int place, int spread, int f
 }
 
 static int near50(uint64_t *g, int kind, solver_case *c) {
-  return tangent(g, kind, 1, 0, 2, 6, whole(g, 0, 1) ? 0x1p-50 : -0x1p-50, c);
+  return tangent(g, kind, 0, 0, 1, 1000, whole(g, 0, 1) ? 0x1p-50 : -0x1p-50, c);
 }
-static int tangent_small(uint64_t *g, int kind, solver_case *c) { return tangent(g, kind, 3, 100, 2, 1000, 0, c); }
-static int tangent_large(uint64_t *g, int kind, solver_case *c) { return tangent(g, kind, 1600, 16383, 100, 16, 0, c); }
+static int tangent_small(uint64_t *g, int kind, solver_case *c) { return tangent(g, kind, 3, 100, 1, 1000, 0, c); }
+static int tangent_large(uint64_t *g, int kind, solver_case *c) { return tangent(g, kind, 1600, 16383, 0, 16383, 0, c); }
 
 const family FAMILIES[] = {
   {"easy random", easy},

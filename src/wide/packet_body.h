@@ -1,0 +1,445 @@
+/* The packet body: the first boundary of up to QN_LANES_NOW rays. Compiled once for each instruction set and each number of lanes (packet.wide.c,
+   few.wide.c; see CMakeLists.txt).
+
+   Two questions that call each other walk the normal form (scene/normal.h). enter: the first place in a union at or after a
+   lane's place. leave: the place after which no term of a union holds the lane. A term [a, b) minus S is entered at leave(S, max(a, t))
+   when that is before b, and is left, when it holds t, at the sooner of b and enter(S, t). Ends compare as reals: apart by more than
+   the errors' sum, sure; else equal when they are the same root of the same surface; else the lane is given up (unsure).
+   A place stands for the stretch just after it, so ends are half-open and coincident faces come out regularised (S5). */
+#ifndef QN_WIDE_PACKET_BODY_H
+#define QN_WIDE_PACKET_BODY_H
+
+#include "wide/facts.h"
+#include "wide/term.h"
+
+static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best);
+static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask);
+
+/* Moves `at` to the first place at or after it that is in all of the term's plus unions and in none of its minus unions. Lanes that
+   find none before `limit` leave the mask. */
+static uint64_t term_seek(walk *w, const qn_nterm *t, lanes *at, const lanes *limit, uint64_t mask) {
+  const uint32_t *list = w->normal->lists;
+  for (;;) {
+    uint64_t moved = 0;
+    for (uint32_t i = 0; i < t->minus; i++) {
+      moved |= union_leave(w, list[t->minus0 + i], at, mask);
+      mask &= ~w->unsure;
+    }
+    uint64_t again = t->minus > 1 ? moved : 0;
+    for (uint32_t i = 0; i < t->plus; i++) {
+      lanes next = *limit, was = *at;
+      uint64_t found = union_enter(w, list[t->plus0 + i], at, mask, &next);
+      mask &= found & ~w->unsure;
+      for (uint64_t m = mask; m; m &= m - 1) {
+        unsigned k = qn_trailing_zeros(m);
+        if (memcmp(&next.t[k], &was.t[k], 8)) {
+          again |= (uint64_t)1 << k;
+        }
+        at->t[k] = next.t[k], at->p[k] = next.p[k];
+      }
+    }
+    for (int g = 0; g < QN_GROUPS; g++) { /* past the limit: gone */
+      unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+      if (in) {
+        int o = g * QN_W;
+        vm m = vmask(in), before, equal;
+        order(w, g, vload(at->t + o), vload(at->p + o), vload(limit->t + o), vload(limit->p + o), &m, &before, &equal);
+        mask &= ~((uint64_t)(in & ~vbits(before)) << o);
+      }
+    }
+    again &= mask;
+    if (!again) {
+      return mask;
+    }
+  }
+}
+
+/* The place of entry becomes the best where it is sooner; of two leaves with this surface there, the first in the file is named. */
+QN_INLINE unsigned improve(walk *w, int g, vm m, vd t1, vd p1, lanes *best) {
+  int o = g * QN_W;
+  vm before, equal;
+  vd limit_t = vload(best->t + o), limit_p = vload(best->p + o);
+  order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
+  unsigned ties = vbits(equal);
+  vstore(best->t + o, vpick(before, t1, limit_t)), vstore(best->p + o, vpick(before, p1, limit_p));
+  if (QN_UNLIKELY(ties)) {
+    _Alignas(64) double p[QN_W];
+    vstore(p, p1);
+    for (int i = 0; i < QN_W; i++) {
+      if (ties >> i & 1) {
+        uint64_t x, y;
+        memcpy(&x, &p[i], 8), memcpy(&y, &best->p[o + i], 8);
+        if ((x >> 32 & QN_LEAF_BITS) < (y >> 32 & QN_LEAF_BITS)) {
+          best->p[o + i] = p[i];
+        }
+      }
+    }
+  }
+  return vbits(before) | ties;
+}
+
+/* A term that is one leaf of a kind known here: solved and compared without leaving the registers. */
+QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+  piece_constants k;
+  if (kind == QN_PIECE_SPHERE) {
+    sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k.sphere);
+  } else {
+    piece_prepare(w, head, &k);
+  }
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    int o = g * QN_W;
+    w->counts.leaves++;
+    stretch s = kind == QN_PIECE_SPHERE ? sphere_solve(&w->f, &k.sphere, g) : kind == QN_PIECE_BOX ? box_solve(&w->f, &k.box, g) : piece_solve(w, head, &k, g);
+    w->unsure |= (uint64_t)(vbits(s.unsure) & in) << o;
+    vm m = vand(s.hit, vmask(in)), before, equal, ahead;
+    if (!vbits(m)) {
+      continue;
+    }
+    vstore(w->tolerance + o, vmax(vload(w->tolerance + o), vmul(s.error, vset(2))));
+    vd start = vload(from->t + o), pstart = vload(from->p + o);
+    order(w, g, start, pstart, s.b, s.pb, &m, &ahead, &equal); /* not yet over */
+    m = vand(m, ahead);
+    order(w, g, start, pstart, s.a, s.pa, &m, &before, &equal);
+    *found |= (uint64_t)improve(w, g, m, vpick(before, s.a, start), vpick(before, s.pa, pstart), best) << o;
+  }
+}
+
+static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+  if (t->leaves == 1 && !t->minus && !t->plus) {
+    const qn_piece_head *head = piece_at(w, w->normal->leaves[t->leaf0]);
+    switch ((qn_piece_kind)head->kind) {
+    case QN_PIECE_SPHERE: leaf_enter(w, QN_PIECE_SPHERE, head, from, mask & ~w->unsure, best, found); return;
+    case QN_PIECE_BOX: leaf_enter(w, QN_PIECE_BOX, head, from, mask & ~w->unsure, best, found); return;
+    case QN_PIECE_ROUND: case QN_PIECE_MEET: case QN_PIECE_HARD: break;
+    }
+  }
+  ends e;
+  mask = term_solve(w, t, mask & ~w->unsure, &e);
+  int plain = !t->minus && !t->plus;
+  lanes at, limit;
+  uint64_t seek = 0;
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    int o = g * QN_W;
+    vm m = vmask(in), before, equal, ahead;
+    vd start = vload(from->t + o), pstart = vload(from->p + o), a = vload(e.a + o), pa = vload(e.pa + o), b = vload(e.b + o), pb = vload(e.pb + o);
+    vd limit_t = vload(best->t + o), limit_p = vload(best->p + o);
+    order(w, g, start, pstart, b, pb, &m, &ahead, &equal); /* not yet over */
+    m = vand(m, ahead);
+    order(w, g, start, pstart, a, pa, &m, &before, &equal);
+    vd t1 = vpick(before, a, start), p1 = vpick(before, pa, pstart);
+    if (plain) {
+      *found |= (uint64_t)improve(w, g, m, t1, p1, best) << o;
+    } else {
+      order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
+      m = vand(m, before);
+      vstore(at.t + o, t1), vstore(at.p + o, p1);
+      vm sooner; /* the sooner of b and best bounds the search */
+      vm both = m;
+      order(w, g, b, pb, limit_t, limit_p, &both, &sooner, &equal);
+      vstore(limit.t + o, vpick(sooner, b, limit_t)), vstore(limit.p + o, vpick(sooner, pb, limit_p));
+      seek |= (uint64_t)vbits(both) << o;
+    }
+  }
+  if (plain || !seek) {
+    return;
+  }
+  seek = term_seek(w, t, &at, &limit, seek & ~w->unsure);
+  for (uint64_t m = seek & ~w->unsure; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    best->t[k] = at.t[k], best->p[k] = at.p[k];
+    *found |= (uint64_t)1 << k;
+  }
+}
+
+/* The term is left: lanes of `at` that it holds move to its end. Returns those that moved. */
+static uint64_t term_leave(walk *w, const qn_nterm *t, lanes *at, uint64_t mask) {
+  ends e;
+  mask = term_solve(w, t, mask & ~w->unsure, &e);
+  uint64_t held = 0;
+  lanes end;
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    int o = g * QN_W;
+    vm m = vmask(in), before, equal;
+    vd t0 = vload(at->t + o), p0 = vload(at->p + o), b = vload(e.b + o), pb = vload(e.pb + o);
+    order(w, g, t0, p0, b, pb, &m, &before, &equal);
+    m = vand(m, before);
+    order(w, g, t0, p0, vload(e.a + o), vload(e.pa + o), &m, &before, &equal);
+    m = vandnot(m, before); /* a <= t */
+    held |= (uint64_t)vbits(m) << o;
+    vstore(end.t + o, b), vstore(end.p + o, pb);
+  }
+  held &= ~w->unsure;
+  if (held && (t->minus || t->plus)) {
+    const uint32_t *list = w->normal->lists;
+    lanes probe = *at;
+    for (uint32_t i = 0; i < t->minus; i++) { /* in a subtrahend: not held; else out where the next one begins */
+      uint64_t inside = union_leave(w, list[t->minus0 + i], &probe, held);
+      held &= ~(inside | w->unsure);
+      union_enter(w, list[t->minus0 + i], at, held, &end);
+      held &= ~w->unsure;
+    }
+    for (uint32_t i = 0; i < t->plus; i++) {
+      probe = *at;
+      uint64_t inside = union_leave(w, list[t->plus0 + i], &probe, held);
+      held &= inside & ~w->unsure;
+      for (int g = 0; g < QN_GROUPS; g++) {
+        unsigned in = (unsigned)(held >> (g * QN_W)) & QN_ALL_BITS;
+        if (in) {
+          int o = g * QN_W;
+          vm m = vmask(in), before, equal;
+          vd x = vload(probe.t + o), px = vload(probe.p + o), y = vload(end.t + o), py = vload(end.p + o);
+          order(w, g, x, px, y, py, &m, &before, &equal);
+          vstore(end.t + o, vpick(before, x, y)), vstore(end.p + o, vpick(before, px, py));
+        }
+      }
+      held &= ~w->unsure;
+    }
+  }
+  for (uint64_t m = held; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    at->t[k] = end.t[k], at->p[k] = end.p[k];
+  }
+  return held;
+}
+
+/* Bounds of the places of some lanes, as floats. */
+QN_INLINE void span_of(const lanes *at, uint64_t mask, float *first, float *last) {
+  vd low = vset(INFINITY), high = vset(-INFINITY);
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (in) {
+      vm m = vmask(in);
+      vd t = vload(at->t + g * QN_W);
+      low = vpick(m, vmin(low, t), low), high = vpick(m, vmax(high, t), high);
+    }
+  }
+  _Alignas(64) double x[QN_W], y[QN_W];
+  vstore(x, low), vstore(y, high);
+  for (int i = 1; i < QN_W; i++) {
+    x[0] = least(x[0], x[i]), y[0] = most(y[0], y[i]);
+  }
+  *first = down(x[0] - fabs(x[0]) * 0x1p-20), *last = up(y[0] + fabs(y[0]) * 0x1p-20);
+}
+static float latest(const lanes *at, uint64_t mask) {
+  float first, last;
+  span_of(at, mask, &first, &last);
+  return last;
+}
+static float earliest(const lanes *at, uint64_t mask) {
+  float first, last;
+  span_of(at, mask, &first, &last);
+  return first;
+}
+
+static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
+  const qn_union *un = &w->normal->unions[u];
+  const qn_nterm *terms = w->normal->terms;
+  uint64_t found = 0;
+  mask &= ~w->unsure;
+  if (!mask) {
+    return 0;
+  }
+  for (uint32_t i = 0; i < un->wide; i++) {
+    term_enter(w, &terms[un->wide0 + i], from, mask, best, &found);
+  }
+  if (un->root == QN_NO_ROOT) {
+    return found & ~w->unsure;
+  }
+  struct { float near; uint32_t node; } stack[STACK];
+  int top = 0;
+  float start = earliest(from, mask), end = latest(best, mask);
+  stack[top].near = -INFINITY, stack[top++].node = un->root;
+  while (top) {
+    top--;
+    if (stack[top].near > end) {
+      continue;
+    }
+    uint32_t at = stack[top].node;
+    if (at & QN_BVH_LEAF) {
+      const qn_nterm *t = &terms[at & ~QN_BVH_LEAF];
+      uint64_t in = subs_meet(w, t) & mask & ~w->unsure;
+      if (in) {
+        term_enter(w, t, from, in, best, &found);
+        end = latest(best, mask & ~w->unsure);
+      }
+      continue;
+    }
+    const qn_bvh_node *n = &w->normal->nodes[at];
+    _Alignas(32) float near[8];
+    w->counts.nodes++;
+    unsigned meets = node_meets(w, n, start, end, near);
+    int first = top;
+    for (; meets; meets &= meets - 1) { /* farthest first, so that the nearest is taken next */
+      unsigned c = qn_trailing_zeros(meets);
+      int j = top++;
+      for (; j > first && stack[j - 1].near < near[c]; j--) {
+        stack[j] = stack[j - 1];
+      }
+      stack[j].near = near[c], stack[j].node = n->child[c];
+    }
+  }
+  return found & ~w->unsure;
+}
+
+/* Boxes of the lanes' points, one for each sub-packet; slack for their rounding. */
+typedef struct spots { _Alignas(32) float min[3][SUBS], max[3][SUBS]; float all_min[3], all_max[3]; } spots;
+
+static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
+  const qn_packet *p = w->f.p;
+  for (int i = 0; i < 3; i++) {
+    s->all_min[i] = INFINITY, s->all_max[i] = -INFINITY;
+    for (int k = 0; k < SUBS; k++) {
+      double lo = INFINITY, hi = -INFINITY, size = 0;
+      for (uint64_t m = mask >> (k * SUB_LANES) & SUB_MASK; m; m &= m - 1) {
+        unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
+        double step = at->t[j] * p->d[i][j], x = p->o[i][j] + step;
+        size = most(size, fabs(step) + w->tolerance[j] * fabs(p->d[i][j]));
+        lo = least(lo, x), hi = most(hi, x);
+      }
+      double slack = (size + most(fabs(lo), fabs(hi))) * 0x1p-40;
+      for (uint64_t m = mask >> (k * SUB_LANES) & SUB_MASK; m; m &= m - 1) {
+        unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
+        slack = most(slack, w->tolerance[j] * fabs(p->d[i][j]) * 2);
+      }
+      int used = (mask >> (k * SUB_LANES) & SUB_MASK) != 0;
+      s->min[i][k] = used ? down(lo - slack) : INFINITY;
+      s->max[i][k] = used ? up(hi + slack) : -INFINITY;
+      s->all_min[i] = (s->min[i][k] < s->all_min[i] ? s->min[i][k] : s->all_min[i]), s->all_max[i] = (s->max[i][k] > s->all_max[i] ? s->max[i][k] : s->all_max[i]);
+    }
+  }
+}
+
+/* One pass: every term that holds a lane is left. Returns the lanes that moved. */
+static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask) {
+  const qn_nterm *terms = w->normal->terms;
+  uint64_t moved = 0;
+  for (uint32_t i = 0; i < un->wide; i++) {
+    moved |= term_leave(w, &terms[un->wide0 + i], at, mask & ~w->unsure);
+  }
+  if (un->root == QN_NO_ROOT) {
+    return moved;
+  }
+  mask &= ~w->unsure;
+  spots s;
+  spots_of(w, at, mask, &s);
+  uint32_t stack[STACK];
+  int top = 0;
+  stack[top++] = un->root;
+  while (top) {
+    uint32_t node = stack[--top];
+    if (node & QN_BVH_LEAF) {
+      const qn_nterm *t = &terms[node & ~QN_BVH_LEAF];
+      unsigned in = 0xff;
+      for (int i = 0; i < 3; i++) {
+        in &= fle(fset(t->min[i]), fload(s.max[i])) & fle(fload(s.min[i]), fset(t->max[i]));
+      }
+      uint64_t lanes_in = eights(in) & mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
+      if (lanes_in) {
+        moved |= term_leave(w, t, at, lanes_in);
+      }
+      continue;
+    }
+    const qn_bvh_node *n = &w->normal->nodes[node];
+    w->counts.nodes++;
+    unsigned in = 0xff;
+    for (int i = 0; i < 3; i++) {
+      in &= fle(fload(n->min[i]), fset(s.all_max[i])) & fle(fset(s.all_min[i]), fload(n->max[i]));
+    }
+    for (; in; in &= in - 1) {
+      stack[top++] = n->child[qn_trailing_zeros(in)];
+    }
+  }
+  return moved;
+}
+
+static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
+  const qn_union *un = &w->normal->unions[u];
+  uint64_t moved = 0, now = mask & ~w->unsure;
+  while (now) {
+    now = leave_once(w, un, at, now) & ~w->unsure;
+    moved |= now;
+  }
+  return moved & ~w->unsure;
+}
+
+void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
+void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
+  walk w;
+  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
+  facts(&w, packet);
+  hits->unsure = hits->found = hits->leaving = hits->far_end = 0;
+  const qn_union *root = &scene->normal.unions[scene->normal.root];
+  if (root->wide == 0) { /* nothing near: no ray need be made */
+    _Alignas(32) float near[8];
+    counts->packets++, counts->nodes++;
+    if (root->root == QN_NO_ROOT || !node_meets(&w, &scene->normal.nodes[root->root], -INFINITY, INFINITY, near)) {
+      return;
+    }
+  }
+  if (packet->tile == QN_TILE_ORIGINS) {
+    fill_tile(packet, packet->o);
+  }
+  lanes start, best;
+  const double nobody = payload_bits(QN_NOBODY);
+  const vd none = vset(nobody);
+  for (int j = 0; j < QN_LANES_NOW; j += QN_W) {
+    vstore(w.tolerance + j, vset(0));
+    vstore(start.t + j, vmax(vload(packet->from + j), vset(-QN_FAR)));
+    vstore(best.t + j, vmin(vload(packet->to + j), vset(QN_FAR))), vstore(best.p + j, none);
+  }
+  for (int j = 0; j < QN_LANES_NOW; j++) {
+    start.p[j] = payload_bits(packet->on[j] | QN_STARTS_ON);
+  }
+  uint64_t mask = packet->live, leaving = 0;
+  uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);
+  uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
+  for (int g = 0; g < QN_GROUPS; g++) {
+    within |= (uint64_t)vsigns(vload(best.p + g * QN_W)) << (g * QN_W); /* QN_STARTS_ON */
+  }
+  within &= found;
+  if (within) {
+    lanes at = start;
+    uint64_t left = union_leave(&w, scene->normal.root, &at, within);
+    found &= ~(within & ~left);
+    leaving = left;
+    for (uint64_t m = left & ~w.unsure; m; m &= m - 1) {
+      unsigned k = qn_trailing_zeros(m);
+      best.t[k] = at.t[k], best.p[k] = at.p[k];
+      double gap = packet->to[k] - at.t[k];
+      if (gap < -w.tolerance[k] || at.t[k] >= QN_FAR) {
+        found &= ~((uint64_t)1 << k);
+      } else if (!(gap > w.tolerance[k])) {
+        w.unsure |= (uint64_t)1 << k;
+      }
+    }
+  }
+  hits->unsure = w.unsure & packet->live;
+  hits->found = found & packet->live & ~w.unsure;
+  hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
+  hits->far_end = 0;
+  for (uint64_t m = hits->found; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    uint64_t payload;
+    memcpy(&payload, &best.p[k], 8);
+    hits->t[k] = best.t[k];
+    hits->error[k] = w.tolerance[k] / 2;
+    hits->surface[k] = (uint32_t)payload;
+    hits->leaf[k] = (uint32_t)(payload >> 32) & QN_LEAF_BITS;
+    hits->far_end |= (payload >> 62 & 1) << k;
+  }
+  counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves, counts->packets++;
+}
+
+#endif

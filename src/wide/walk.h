@@ -1,0 +1,122 @@
+/* One packet's walk through a scene: its state, the certified order of places, and the boxes that lanes may meet. Static code of the
+   packet body. */
+#ifndef QN_WIDE_WALK_H
+#define QN_WIDE_WALK_H
+
+#include "wide/solve.h"
+
+typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
+
+enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 256 };
+
+/* How a packet's directions lie on an axis. */
+enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
+
+typedef struct walk {
+  packet_facts f;
+  const struct quoin_scene *scene;
+  const qn_normal *normal;
+  uint64_t unsure;
+  qn_wide_counts counts;
+  float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
+  _Alignas(64) double tolerance[QN_LANES_NOW]; /* the sum of any two errors of this lane so far */
+} walk;
+
+/* A float at most, or at least, v: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
+QN_INLINE float down(double v) {
+  float f = (float)v;
+  return f - (fabsf(f) * 0x1p-22f + 0x1p-126f);
+}
+QN_INLINE float up(double v) {
+  float f = (float)v;
+  return f + (fabsf(f) * 0x1p-22f + 0x1p-126f);
+}
+
+/* The lanes of sub-packets: byte k all ones where bit k is set; or, where a sub-packet is one lane, the bits themselves. */
+QN_INLINE uint64_t eights(unsigned bits) {
+  if (SUB_LANES == 1) {
+    return bits;
+  }
+  uint64_t x = bits * 0x0101010101010101u & 0x8040201008040201u;
+  return ((x + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u) * 255;
+}
+
+/* --- order --------------------------------------------------------------------------------------------------------- */
+
+static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd px, vd py, unsigned *equal) {
+  _Alignas(64) double x[QN_W], y[QN_W];
+  vstore(x, px), vstore(y, py);
+  for (int i = 0; i < QN_W; i++) {
+    if (near >> i & 1) {
+      uint64_t a, b;
+      memcpy(&a, &x[i], 8), memcpy(&b, &y[i], 8);
+      const uint64_t who = (a | b) & QN_STARTS_ON ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
+      if ((a & who) == (b & who)) {
+        *equal |= 1u << i;
+      } else {
+        w->unsure |= (uint64_t)1 << (g * QN_W + i);
+      }
+    }
+  }
+}
+
+/* x before y, and x equal to y, for the lanes of `mask`; lanes in neither are after, or were given up: these leave `mask`. */
+QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *before, vm *equal) {
+  vd tolerance = vload(w->tolerance + g * QN_W), gap = vsub(y, x);
+  vm sure = vlt(tolerance, gap), near = vle(vabs(gap), tolerance);
+  *before = vand(sure, *mask);
+  unsigned close = vbits(vand(near, *mask));
+  if (QN_LIKELY(close == 0)) {
+    *equal = vmask(0);
+    return;
+  }
+  unsigned same = 0;
+  settle_ties(w, g, close, px, py, &same);
+  *equal = vmask(same);
+  *mask = vandnot(*mask, vmask(close & ~same));
+}
+
+/* --- boxes --------------------------------------------------------------------------------------------------------- */
+
+/* Which of eight boxes the packet, or of eight sub-packets the box, may meet between two parameters. The products bound the
+   parameters at which a box's planes are met; imin and imax are widened so that their rounding does not matter. */
+QN_INLINE unsigned slabs(const int axis[3], vf8 bmin[3], vf8 bmax[3], vf8 omin[3], vf8 omax[3], vf8 imin[3], vf8 imax[3], vf8 start, vf8 end, vf8 *near_out) {
+  vf8 near = start, far = end;
+  unsigned meets = 0xff;
+  for (int i = 0; i < 3; i++) {
+    if (axis[i] == AXIS_UP || axis[i] == AXIS_DOWN) {
+      vf8 n = axis[i] == AXIS_UP ? fsub(bmin[i], omax[i]) : fsub(bmax[i], omin[i]);
+      vf8 x = axis[i] == AXIS_UP ? fsub(bmax[i], omin[i]) : fsub(bmin[i], omax[i]);
+      near = fmax8(near, fmin8(fmul(n, imin[i]), fmul(n, imax[i])));
+      far = fmin8(far, fmax8(fmul(x, imin[i]), fmul(x, imax[i])));
+    } else if (axis[i] == AXIS_FLAT) {
+      meets &= fle(bmin[i], omax[i]) & fle(omin[i], bmax[i]);
+    }
+  }
+  *near_out = near;
+  return meets & fle(near, far);
+}
+
+QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, float end, float near[8]) {
+  vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
+  for (int i = 0; i < 3; i++) {
+    bmin[i] = fload(n->min[i]), bmax[i] = fload(n->max[i]);
+    omin[i] = fset(w->all_omin[i]), omax[i] = fset(w->all_omax[i]), imin[i] = fset(w->all_imin[i]), imax[i] = fset(w->all_imax[i]);
+  }
+  unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(start), fset(end), &when);
+  fstore(near, when);
+  return meets;
+}
+
+/* The sub-packets that may meet a term's box, as lanes. */
+QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
+  vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
+  for (int i = 0; i < 3; i++) {
+    bmin[i] = fset(t->min[i]), bmax[i] = fset(t->max[i]);
+    omin[i] = fload(w->f.p->omin[i]), omax[i] = fload(w->f.p->omax[i]), imin[i] = fload(w->f.p->imin[i]), imax[i] = fload(w->f.p->imax[i]);
+  }
+  unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when);
+  return eights(meets);
+}
+
+#endif
