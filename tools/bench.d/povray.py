@@ -5,8 +5,7 @@ import math
 import os
 import re
 import subprocess
-
-BLACK = 65535  # depth code of a miss: pure red is never a depth
+import time
 
 
 def camera_of(path):
@@ -38,9 +37,7 @@ def scene_text(base, depth):
         start = [o[i] + low * d[i] for i in range(3)]
         pigment = 'pigment{gradient %s color_map{[0 rgb 0][1 rgb <0,1,1>]} scale %r translate %s}' % (vector(d), high - low, vector(start))
     text += '#default{texture{%s finish{ambient 1 diffuse 0}}}\n' % pigment
-    if depth is not None:
-        text += '#include "%s.pov"\n' % os.path.basename(base)
-    return text if depth is not None else text + '#include "%s.pov"\n' % os.path.basename(base)
+    return text + '#include "%s.pov"\n' % os.path.basename(base)
 
 
 def seconds_in(output, what):
@@ -128,3 +125,41 @@ def judge(base, size, depths, limit=120):
             hit = red < 30000
             wrong += hit != (right >= 0) or (hit and abs(green / 65535 - right) > 1e-3)
     return wrong, judged
+
+
+def picture_size(base, width):
+    """Square pixels: as bench_pictures computes it."""
+    _, u, v, _ = camera_of(base + '.camera')
+    return width, int(width * math.sqrt(dot(v, v)) / math.sqrt(dot(u, u)) + 0.5)
+
+
+def picture_text(base, width, height, light):
+    """White, ambient 0.1, diffuse 0.9, one sun with shadows; the same as the model that run.py writes for quoin."""
+    o, u, v, d = camera_of(base + '.camera')
+    middle = [o[i] + u[i] / 2 + v[i] / 2 for i in range(3)]
+    lu, lv = math.sqrt(dot(u, u)), math.sqrt(dot(v, v))
+    right = [x / lu * (lv / height * width) for x in u]
+    sun = [middle[i] - 1e4 * light[i] for i in range(3)]
+    text = '#version 3.7; global_settings{assumed_gamma 1}\nbackground{rgb 0}\n'
+    text += 'camera{orthographic location %s direction %s right %s up %s}\n' % tuple(map(vector, (middle, d, right, v)))
+    text += 'light_source{%s rgb 1 parallel point_at %s}\n' % (vector(sun), vector(middle))
+    text += '#default{texture{pigment{rgb 1} finish{ambient 0.1 diffuse 0.9}}}\n#include "%s.pov"\n' % os.path.basename(base)
+    return text
+
+
+def render(base, text, width, height, settings, threads, output, limit):
+    """(trace seconds, seconds of the whole command), or None. settings: options of antialiasing."""
+    control = base + '.run.pov'
+    with open(control, 'w') as f:
+        f.write(text)
+    kind = '+FN8' if output.endswith('.png') else '+FP8'
+    command = ['povray', '+I' + os.path.basename(control), '+W%d' % width, '+H%d' % height, '+WT%d' % threads, '-D', '-V', '-J', kind,
+               '+O' + output] + settings
+    begin = time.monotonic()
+    try:
+        done = subprocess.run(command, cwd=os.path.dirname(base), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=limit)
+    except subprocess.TimeoutExpired:
+        return None
+    if done.returncode != 0:
+        raise SystemExit('povray failed on %s:\n%s' % (base, done.stdout[-2000:]))
+    return seconds_in(done.stdout, 'Trace Time'), time.monotonic() - begin

@@ -173,6 +173,143 @@ def print_ratios(name, rows):
             print('  %s: %s' % (peer, ', '.join('%s %.2f times' % (p, rate[p] / rate[peer]) for p in ('grid', 'grid-t', 'tiles', 'single') if rate.get(p, 0) > 0)))
 
 
+# --- pictures --------------------------------------------------------------------------------------------------------
+
+PICTURE_SCENES = ['part50', 'spheres10k']
+LIGHT = [0.5, 0.2, -0.7] # the way it travels
+PICTURE_FIELDS = ['scene', 'program', 'setting', 'seconds', 'rms', 'threads', 'rays']
+COMMAND_FIELDS = ['scene', 'program', 'threads', 'width', 'height', 'seconds']
+ANTIALIASING = [('none', ['-A'])] + \
+    [('%dx%d where over 0.1' % (r, r), ['+A0.1', '+AM1', '+R%d' % r]) for r in (2, 3, 4, 6, 9)] + \
+    [('recursive, depth %d' % r, ['+A0.05', '+AM2', '+R%d' % r]) for r in (1, 2, 3, 4)]
+
+
+def picture_model(base):
+    """The scene with a light and a plain white material."""
+    path = base + '.picture.csg'
+    with open(base + '.csg') as f, open(path, 'w') as out:
+        out.write('light(direction=%r);\nbackground([0,0,0]);\nmaterial(color=[1,1,1],ambient=0.1,diffuse=0.9,specular=0) {\n' % LIGHT)
+        shutil.copyfileobj(f, out)
+        out.write('}\n')
+    return path
+
+
+def pictures_part(b):
+    quick = b.args.quick
+    names = [n for n in PICTURE_SCENES if not b.args.scene or n in b.args.scene]
+    peers = not b.args.no_peers and shutil.which('povray') is not None
+    path = os.path.join(b.results, 'pictures.csv')
+    if os.path.exists(path):
+        os.remove(path)
+    for name in names[:1] if quick else names:
+        base = b.scene(name)
+        model = picture_model(base)
+        width, height = povray.picture_size(base, 160 if quick else 400)
+        others = os.path.join(b.results, 'others.txt')
+        with open(others, 'w') as f:
+            for k, (label, settings) in enumerate(ANTIALIASING if peers else []):
+                if quick and k not in (0, 2, 4, 7):
+                    continue
+                output = os.path.join(b.results, 'povray-%d.ppm' % k)
+                text = povray.picture_text(base, width, height, LIGHT)
+                spent = povray.render(base, text, width, height, settings, 1, output, 120)
+                if spent is None:
+                    break
+                f.write('POV-Ray:%s %r %s\n' % (label.replace(' ', '_'), spent[0], output))
+        b.run([b.program('bench_pictures'), model, base + '.camera', '--width', width, '--side', 16 if quick else 32, '--name', name, '--csv', path,
+               '--seconds', 0.05 if quick else 0.5, '--others', others])
+        for k in range(len(ANTIALIASING)):
+            output = os.path.join(b.results, 'povray-%d.ppm' % k)
+            if os.path.exists(output):
+                os.remove(output)
+    rows = b.rows(path, PICTURE_FIELDS)
+    b.write('pictures', PICTURE_FIELDS, rows)
+    commands_part(b, peers)
+
+
+def commands_part(b, peers):
+    """Whole commands, from start to written PNG: a part of 50 leaves, 800 x 600, shadows, antialiased."""
+    base = b.scene('part50')
+    model = picture_model(base)
+    o, u, v, d = povray.camera_of(base + '.camera')
+    eye = [o[i] + u[i] / 2 + v[i] / 2 for i in range(3)]
+    look = [eye[i] + d[i] * povray.dot(v, v)**.5 / 2 for i in range(3)]
+    png = os.path.join(b.results, 'part50.png')
+    threads = os.cpu_count() or 1
+    rows = []
+    command = [b.program('quoin'), 'render', model, '-o', png, '--imgsize', '800,600', '--projection', 'ortho', '--fov', 90, '--camera',
+               ','.join(repr(x) for x in eye + look), '--quiet']
+    ours, theirs = [], []
+    for _ in range(2 if b.args.quick else 7): # in turn
+        begin = time.monotonic()
+        if b.run(command).returncode != 0:
+            return
+        ours.append(time.monotonic() - begin)
+        if peers:
+            text = povray.picture_text(base, 800, 600, LIGHT)
+            spent = povray.render(base, text, 800, 600, ['+A0.1', '+AM1', '+R4'], threads, png, 300)
+            if spent:
+                theirs.append(spent[1])
+    for program, times in (('quoin render', ours), ('povray', theirs)):
+        if times:
+            rows.append(dict(scene='part50', program=program, threads=threads, width=800, height=600, seconds='%.4f' % statistics.median(times)))
+            print('  %-14s 800x600, shadows, antialiased, %d threads: %.4f s' % (program, threads, statistics.median(times)))
+    os.remove(png)
+    b.write('commands', COMMAND_FIELDS, rows)
+
+
+# --- growth and threads ----------------------------------------------------------------------------------------------
+
+GROWTH = {
+    'spheres': [10, 100, 1000, 10000, 100000, 1000000],
+    'plate': [10, 100, 1000, 10000, 100000],
+    'tree': [10, 100, 1000, 10000, 100000, 1000000],
+    'menger': [1, 2, 3, 4, 5],
+}
+GROWTH_QUICK = {'spheres': [10, 1000, 10000], 'plate': [10, 1000, 10000], 'tree': [10, 1000, 10000], 'menger': [1, 3, 4]}
+GROWTH_PATHS = ['single', 'grid', 'intervals', 'random', 'points']
+THREAD_SCENES = ['plate1000', 'spheres10k', 'tree1024']
+
+
+def growth_part(b):
+    quick = b.args.quick
+    rows, build = [], []
+    for family, sizes in (GROWTH_QUICK if quick else GROWTH).items():
+        for n in sizes:
+            name = '%s-%d' % (family, n)
+            if b.args.scene and name not in b.args.scene and family not in b.args.scene:
+                continue
+            base = b.scene(name)
+            b.say('growth ' + name)
+            for threads in [1] if quick else [1, 0]: # of the compilation
+                found = b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
+                                      0.05 if quick else 0.2, '--size', 512, '--oracle', 20 if threads else 0, '--build-threads', threads, '--paths',
+                                      ','.join(GROWTH_PATHS if threads else ['grid'])])
+                for r in found if threads else []:
+                    rows.append(r)
+                for r in found[:1]:
+                    build.append(dict(scene=name, build_threads=threads or os.cpu_count(), leaves=r['leaves_kept'], read_s=r['read_s'],
+                                      compile_s=r['compile_s'], bytes=r['bytes']))
+    b.write('growth', SCENE_FIELDS, rows)
+    b.write('build', ['scene', 'build_threads', 'leaves', 'read_s', 'compile_s', 'bytes'], build)
+    rows = []
+    for name in THREAD_SCENES if not quick else THREAD_SCENES[:1]:
+        if b.args.scene and name not in b.args.scene:
+            continue
+        base = b.scene(name)
+        for threads in range(1, (os.cpu_count() or 1) + 1):
+            rows += b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
+                                  0.1 if quick else 0.4, '--oracle', 0, '--threads', threads, '--paths', 'grid,single,intervals'])
+    b.write('threads', SCENE_FIELDS, rows)
+
+
+# --- solvers ---------------------------------------------------------------------------------------------------------
+
+def solvers_part(b):
+    b.run([b.program('bench_solvers'), '--csv', os.path.join(b.results, 'solvers.csv')] +
+          (['--cases', 300, '--seconds', 0.01] if b.args.quick else ['--cases', 3000, '--seconds', 0.1]))
+
+
 def main():
     p = argparse.ArgumentParser(prog='tools/bench', add_help=False)
     names = lambda text: [x for x in text.split(',') if x]
@@ -186,7 +323,7 @@ def main():
     p.add_argument('--no-peers', action='store_true')
     p.add_argument('--page', action='store_true')
     b = Bench(p.parse_args())
-    parts = {'scenes': scenes_part}
+    parts = {'solvers': solvers_part, 'scenes': scenes_part, 'pictures': pictures_part, 'growth': growth_part}
     for name in b.args.only:
         if name not in parts:
             p.error('no part is called ' + name)
