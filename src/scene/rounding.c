@@ -69,9 +69,29 @@ static void split(qn_ctx *ctx, qn_int a, int64_t scale, double *hi, double *lo) 
   *lo = y - (*hi - x);
 }
 
+/* The coordinates that occur, also in terms too small to keep (the bounds need the size of their coordinates), first. */
+static unsigned order_axes(const qn_int q[10], uint8_t axis[3]) {
+  unsigned occurs = 0, n = 0;
+  for (int i = 0; i < 9; i++) {
+    if (qn_int_sign(q[i])) {
+      occurs |= i < 6 ? 1u << PAIR[i][0] | 1u << PAIR[i][1] : 1u << (i - 6);
+    }
+  }
+  for (unsigned there = 2; there-- > 0;) {
+    for (unsigned j = 0; j < 3; j++) {
+      if ((occurs >> j & 1) == there) {
+        axis[n++] = (uint8_t)j;
+      }
+    }
+  }
+  return (occurs & 1) + (occurs >> 1 & 1) + (occurs >> 2);
+}
+
 static void fill(qn_ctx *ctx, const qn_exact_surface *form, const double pivot[3], qn_rounding *out) {
+  static const int product[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}}; /* where the coefficient of two coordinates is */
   qn_int q[10];
   shift(ctx, form, pivot, q);
+  unsigned axes = order_axes(q, out->axis);
   size_t scale = 0;
   for (int i = 0; i < 10; i++) {
     size_t bits = qn_int_bits(q[i]);
@@ -79,21 +99,26 @@ static void fill(qn_ctx *ctx, const qn_exact_surface *form, const double pivot[3
   }
   double *hi = out->k + QN_ROUNDING_HI, *lo = out->k + QN_ROUNDING_LO, most[3] = {0, 0, 0}; /* by degree */
   for (int i = 0; i < 10; i++) {
-    split(ctx, q[i], (int64_t)scale, &hi[i], &lo[i]);
     int degree = i < 6 ? 2 : i < 9 ? 1 : 0;
+    qn_int from = degree == 2 ? q[product[out->axis[PAIR[i][0]]][out->axis[PAIR[i][1]]]] : degree == 1 ? q[6 + out->axis[i - 6]] : q[9];
+    split(ctx, from, (int64_t)scale, &hi[i], &lo[i]);
     most[degree] = fmax(most[degree], fabs(hi[i]));
-    out->terms |= (uint16_t)((hi[i] != 0) << i);
-    if (qn_int_sign(q[i])) { /* also of a dropped term: the bounds need the size of its coordinates */
-      out->axes |= (uint8_t)(degree == 2 ? 1u << PAIR[i][0] | 1u << PAIR[i][1] : degree == 1 ? 1u << (i - 6) : 0);
-    }
   }
   for (int j = 0; j < 3; j++) {
-    out->k[QN_ROUNDING_PIVOT + j] = pivot[j];
+    out->k[QN_ROUNDING_PIVOT + j] = pivot[out->axis[j]];
   }
   out->k[QN_ROUNDING_SQUARE] = form->plane ? 0 : most[2] + QN_ROUND_SQUARE_TINY;
   out->k[QN_ROUNDING_LINEAR] = most[1] + QN_ROUND_LINEAR_TINY;
   out->k[QN_ROUNDING_CONSTANT] = most[0] + QN_ROUND_TINY;
-  out->sound = form->plane || most[2] > 0; /* a quadric whose square terms were all dropped is no plane */
+  if (form->plane) {
+    out->kind = axes == 1 ? QN_ROUNDING_AXIS : QN_ROUNDING_PLANE;
+  } else if (most[2] == 0) {
+    out->kind = QN_ROUNDING_NONE; /* what is left would pass for a plane */
+  } else if (hi[3] != 0 || hi[4] != 0 || hi[5] != 0) {
+    out->kind = QN_ROUNDING_FULL;
+  } else {
+    out->kind = axes == 3 ? QN_ROUNDING_DIAGONAL : QN_ROUNDING_ROUND;
+  }
 }
 
 const qn_rounding *qn_rounding_make(const quoin_scene *scene, uint32_t surface, uint64_t *made) {
@@ -120,9 +145,9 @@ const qn_rounding *qn_rounding_make(const quoin_scene *scene, uint32_t surface, 
   }
   if (mine && form && ctx.failed == QUOIN_OK) {
     fill(&ctx, form, scene->leaves[s->leaf].pivot, mine);
-    if (ctx.failed != QUOIN_OK) {
-      *mine = (qn_rounding){.sound = 0};
-    }
+  }
+  if (mine && (!form || ctx.failed != QUOIN_OK)) {
+    mine->kind = QN_ROUNDING_NONE;
   }
   int refused = ctx.failed == QUOIN_E_MEMORY;
   qn_ctx_free(&ctx);

@@ -14,8 +14,8 @@
 #include "scene/rounding.h"
 #include "wide/vec.h"
 
-/* A surface's numbers for QN_W lanes: one surface for all of them (shared), or number i of lane j at k[i * QN_W + j]. terms and
-   axes: of any of the surfaces. */
+/* A surface's numbers for QN_W lanes: one surface for all of them (shared), or number i of lane j at k[i * QN_W + j]. terms: bit i,
+   k_i may be other than 0; axes: bit j, y_j occurs. */
 typedef struct surface_numbers {
   const double *k;
   unsigned terms, axes;

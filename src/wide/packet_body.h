@@ -299,24 +299,23 @@ typedef struct spots { _Alignas(32) float min[3][SUBS], max[3][SUBS]; float all_
 static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
   const qn_packet *p = w->f.p;
   for (int i = 0; i < 3; i++) {
+    _Alignas(64) double low[QN_LANES_NOW], high[QN_LANES_NOW];
+    for (int g = 0; g < QN_GROUPS; g++) {
+      int o = g * QN_W;
+      vm in = vmask((unsigned)(mask >> o) & QN_ALL_BITS);
+      vd d = vload(p->d[i] + o), step = vmul(vload(at->t + o), d), x = vadd(vload(p->o[i] + o), step);
+      vd slack = vfma(vadd(vabs(step), vabs(x)), vset(0x1p-40), vmul(vmul(vload(w->tolerance + o), vabs(d)), vset(4)));
+      vstore(low + o, vpick(in, vsub(x, slack), vset(INFINITY)));
+      vstore(high + o, vpick(in, vadd(x, slack), vset(-INFINITY)));
+    }
     s->all_min[i] = INFINITY, s->all_max[i] = -INFINITY;
     for (int k = 0; k < SUBS; k++) {
-      double lo = INFINITY, hi = -INFINITY, size = 0;
-      for (uint64_t m = mask >> (k * SUB_LANES) & SUB_MASK; m; m &= m - 1) {
-        unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
-        double step = at->t[j] * p->d[i][j], x = p->o[i][j] + step;
-        size = most(size, fabs(step) + w->tolerance[j] * fabs(p->d[i][j]));
-        lo = least(lo, x), hi = most(hi, x);
-      }
-      double slack = (size + most(fabs(lo), fabs(hi))) * 0x1p-40;
-      for (uint64_t m = mask >> (k * SUB_LANES) & SUB_MASK; m; m &= m - 1) {
-        unsigned j = (unsigned)k * SUB_LANES + qn_trailing_zeros(m);
-        slack = most(slack, w->tolerance[j] * fabs(p->d[i][j]) * 2);
-      }
-      int used = (mask >> (k * SUB_LANES) & SUB_MASK) != 0;
-      s->min[i][k] = used ? down(lo - slack) : INFINITY;
-      s->max[i][k] = used ? up(hi + slack) : -INFINITY;
-      s->all_min[i] = (s->min[i][k] < s->all_min[i] ? s->min[i][k] : s->all_min[i]), s->all_max[i] = (s->max[i][k] > s->all_max[i] ? s->max[i][k] : s->all_max[i]);
+      double least_low, most_high, unused;
+      extremes(low + k * SUB_LANES, &least_low, &unused);
+      extremes(high + k * SUB_LANES, &unused, &most_high);
+      s->min[i][k] = down(least_low), s->max[i][k] = up(most_high);
+      s->all_min[i] = s->min[i][k] < s->all_min[i] ? s->min[i][k] : s->all_min[i];
+      s->all_max[i] = s->max[i][k] > s->all_max[i] ? s->max[i][k] : s->all_max[i];
     }
   }
 }

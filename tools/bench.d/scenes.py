@@ -11,7 +11,7 @@ Each scene becomes four files in DIR:
   NAME.pov      the same in POV-Ray's language, without camera and lights (scenes of up to POV_LEAVES leaves)
 
 Names: the peer scenes (sphere1, plate1000, spheres10k, spheres1M, tree1024, tree1024fat, menger4, parts2000, plate100k, tree65k), `coplanar`
-(a lattice of touching and flush boxes and cylinders), `part50` (a part as people draw them) and the growth families
+(a lattice of touching and flush boxes and cylinders), `part50` and `part50flush` (a part as people draw them) and the growth families
 spheres-N, plate-N, tree-N (N leaves) and menger-L (level L). Everything is drawn from splitmix64 with a fixed seed."""
 import math
 import os
@@ -196,18 +196,20 @@ def coplanar(n=16):
     return s
 
 
-def part50():
-    """A bracket of some 50 leaves: two plates, ribs, bosses with bores, rows of holes. Faces are flush on purpose."""
+def part50(poke=1):
+    """A bracket of some 50 leaves: two plates, ribs, bosses with bores, rows of holes. Cuts stick out by `poke`, as other programs need it: with 0
+    they are flush, which quoin cuts as cleanly, and POV-Ray does not cut at all."""
     s = Scene(ortho([0, 0, 0], [120, 80, 60], [0.5, 0.6, -0.6]))
     add = [s.box([0, 0, 0], [120, 80, 8]), s.box([0, 0, 0], [8, 80, 60])]
     add += [s.box([8, y, 8], [40, y + 6, 30]) for y in (0, 37, 74)]
     add += [s.cylinder([x, y, 8], [0, 0, 14], 9) for x in (60, 100) for y in (20, 60)]
     add += [s.cylinder([0, 40, 40], [20, 0, 0], 16), s.sphere([80, 40, 8], 14)]
-    cut = [s.cylinder([x, y, 0], [0, 0, 22], 5) for x in (60, 100) for y in (20, 60)]
-    cut += [s.cylinder([0, 40, 40], [20, 0, 0], 10), s.sphere([80, 40, 8], 11), s.cylinder([80, 40, 0], [0, 0, 8], 4)]
-    cut += [s.cylinder([10 + 10 * k, y, 0], [0, 0, 8], 2) for k in range(4, 11) for y in (6, 74)]
-    cut += [s.cylinder([0, y, z], [8, 0, 0], 2.5) for y in (8, 72) for z in (16, 50)]
-    cut += [s.box([50 + 15 * k, 35, 0], [56 + 15 * k, 45, 3]) for k in range(4)]
+    drill = lambda base, axis, r: s.cylinder([b - poke * (a > 0) for a, b in zip(axis, base)], [a + 2 * poke * (a > 0) for a in axis], r)
+    cut = [drill([x, y, 0], [0, 0, 22], 5) for x in (60, 100) for y in (20, 60)]
+    cut += [drill([0, 40, 40], [20, 0, 0], 10), s.sphere([80, 40, 8], 11), drill([80, 40, 0], [0, 0, 8], 4)]
+    cut += [drill([10 + 10 * k, y, 0], [0, 0, 8], 2) for k in range(4, 11) for y in (6, 74)]
+    cut += [drill([0, y, z], [8, 0, 0], 2.5) for y in (8, 72) for z in (16, 50)]
+    cut += [s.box([50 + 15 * k, 35, -poke], [56 + 15 * k, 45, 3]) for k in range(4)]
     s.tree = ('d', [('u', add), ('u', cut)])
     return s
 
@@ -225,6 +227,7 @@ PEERS = {
     'tree65k': lambda: tree(65536, 20240004, .25),
     'coplanar': coplanar,
     'part50': part50,
+    'part50flush': lambda: part50(0),
 }
 
 
