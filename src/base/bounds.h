@@ -99,7 +99,7 @@
 #define QN_WIDE_SHY 0x1p14
 
 /* Rounding places in wide code (src/wide/newton.h, scene/rounding.h). Legend: y = o - c + t d with c the surface's pivot; over the
-   coordinates that occur, S = sum |o_j - c_j| + |t d_j|, D = sum |d_j|; K2, K1, K0 the surface's SQUARE, LINEAR and CONSTANT.
+   coordinates that occur, S = sum |o_j - c_j| + |t d_j|, D = sum |d_j|; K2, K1, K0 the surface's SQUARE, LINEAR and CONSTANT; a = q2(d).
      |p^(t) - p(t)| <= QN_ROUND_EVAL (K2 S^2 + K1 S + K0) + u |p^|,  |p'^ - p'| <= QN_ROUND_SLOPE D (2 K2 S + K1),  |a| <= K2 D^2
    for S <= QN_ROUND_LARGEST and D within QN_ROUND_WIDEST and its inverse. Coefficients below 2^QN_ROUND_DROP are dropped: the three
    sizes named tiny, added to K2, K1 and K0, cover that and any underflow. */

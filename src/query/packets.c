@@ -47,7 +47,7 @@ static quoin_status round_t(quoin_work *work, const quoin_ray *ray, const qn_pac
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* The lanes whose leaf is not the question's answer: parts share the surface, and which of them it is is wanted. */
+/* A tied lane's leaf is not the question's answer: parts share the surface, and which of them it is is wanted. */
 static int must_be_named(const quoin_scene *scene, uint32_t surface, unsigned want) {
   const qn_surface *s = &scene->surfaces[surface];
   return s->users > 1 && ((want & QN_LOOK_PART) || ((want & QN_LOOK_MATERIAL) && s->materials_differ));
@@ -57,7 +57,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   const quoin_scene *scene = work->scene;
   qn_counts *counts = qn_scratch_counts(work->scratch);
   qn_packet_hits hits;
-  hits.found = 0, hits.unsure = packet->live;
+  hits.found = hits.tied = 0, hits.unsure = packet->live;
   if (scene->normal.made) {
     qn_wide_counts wide = {0};
     (packet->few ? work->wide->few : work->wide->first)(scene, packet, &hits, &wide);
@@ -70,7 +70,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   for (uint64_t m = hits.found; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
     out[lane] = (qn_seen){hits.t[lane], hits.surface[lane], hits.leaf[lane], (uint8_t)(hits.leaving >> lane & 1)};
-    if ((want & (QN_LOOK_PART | QN_LOOK_MATERIAL)) && must_be_named(scene, hits.surface[lane], want)) {
+    if ((hits.tied >> lane & 1) && must_be_named(scene, hits.surface[lane], want)) {
       woven |= (uint64_t)1 << lane;
     }
   }

@@ -564,10 +564,13 @@ static int draw(maker *m, uint32_t set, const double clip[6]) {
 }
 
 quoin_status qn_normal_build(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads) {
+  return qn_normal_build_within(normal, scene, mem, threads, QN_COPY_BUDGET * scene->leaf_count + QN_COPY_FLOOR);
+}
+
+quoin_status qn_normal_build_within(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads, size_t budget) {
   static const double all[6] = {-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY};
   *normal = (qn_normal){0};
-  maker m = {.scene = scene, .mem = mem, .n = normal, .threads = threads, .gates = scene->program.gate_count};
-  m.budget = QN_COPY_BUDGET * scene->leaf_count + 4096;
+  maker m = {.scene = scene, .mem = mem, .n = normal, .threads = threads, .gates = scene->program.gate_count, .budget = budget};
   if (read_gates(&m)) {
     normal->complement = m.truth[0];
     size_t kids = m.kid0[1] - m.kid0[0];

@@ -18,6 +18,7 @@
 #include "base/mem.h"
 
 #define QN_COPY_BUDGET 8
+#define QN_COPY_FLOOR 4096 /* and so many more, so that small scenes never share */
 /* Gates nested deeper than this get no normal form: rays then take the woven path. */
 #define QN_NORMAL_DEPTH 128
 
@@ -51,6 +52,8 @@ typedef struct qn_normal {
 struct quoin_scene;
 /* Makes the normal form of a compiled scene. Deterministic for any number of threads. */
 QN_NODISCARD quoin_status qn_normal_build(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads);
+/* The same with a budget of its own: unions are shared when more leaf instances than this have been made. */
+QN_NODISCARD quoin_status qn_normal_build_within(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads, size_t budget);
 void qn_normal_free(qn_normal *normal, qn_mem *mem);
 size_t qn_normal_bytes(const qn_normal *normal);
 

@@ -14,14 +14,14 @@
 #include "scene/rounding.h"
 #include "wide/vec.h"
 
-/* A surface's numbers for QN_W lanes: one surface for all of them (shared), or number i of lane j at k[i * QN_W + j]. terms: bit i,
-   k_i may be other than 0; axes: bit j, y_j occurs. */
+/* The numbers of the surfaces of QN_W lanes: of one for all of them (shared), or of one each. terms: bit i, k_i may be other than 0;
+   axes: bit j, y_j occurs. */
 typedef struct surface_numbers {
-  const double *k;
+  const double *k[QN_W]; /* shared: k[0] alone */
   unsigned terms, axes;
   int shared;
 } surface_numbers;
-QN_INLINE vd number_of(const surface_numbers *f, int i) { return f->shared ? vset(f->k[i]) : vload(f->k + i * QN_W); }
+QN_INLINE vd number_of(const surface_numbers *f, int i) { return f->shared ? vset(f->k[0][i]) : vcollect(f->k, i); }
 QN_INLINE vd hi_of(const surface_numbers *f, int i) { return number_of(f, QN_ROUNDING_HI + i); }
 QN_INLINE vd lo_of(const surface_numbers *f, int i) { return number_of(f, QN_ROUNDING_LO + i); }
 
@@ -37,48 +37,66 @@ QN_INLINE void add_term(vdd *sum, vd hi, vd lo, vd x) {
   sum->lo = vadd(sum->lo, vadd(s.lo, vfma(lo, x, p.lo)));
 }
 
-/* The coefficient of y_i y_j, and the terms of row i of the form: (A x + D y + E z + G) x + (B y + F z + H) y + (C z + I) z + J. */
-static const int PLACE_OF_PRODUCT[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-static const unsigned ROW_TERMS[3] = {1u << 0 | 1u << 3 | 1u << 4 | 1u << 6, 1u << 1 | 1u << 5 | 1u << 7, 1u << 2 | 1u << 8};
+/* Where the line is at t: y + low, and what is summed up on the way. Everything below is called with constants for i and j and for the
+   terms and axes of f, so that each kind of form has straight code of its own. */
+typedef struct spot { vd y[3], low[3], g[3], S, D; } spot;
+
+QN_INLINE void find_coordinate(const surface_numbers *f, const rough_places *at, int j, spot *s) {
+  s->y[j] = s->low[j] = s->g[j] = vset(0);
+  if (f->axes >> j & 1) {
+    vdd w = vtwo_difference(at->o[j], number_of(f, QN_ROUNDING_PIVOT + j)), m = vtwo_product(at->t, at->d[j]), x = vtwo_sum(w.hi, m.hi);
+    s->y[j] = x.hi, s->low[j] = vadd(vadd(w.lo, m.lo), x.lo);
+    s->S = vadd(s->S, vadd(vabs(w.hi), vabs(m.hi))), s->D = vadd(s->D, vabs(at->d[j]));
+  }
+}
+
+/* k_at y_i y_j in row i, and in the gradient's component j (in component i it comes with the row). */
+QN_INLINE void add_product(const surface_numbers *f, int at, int i, int j, spot *s, vdd *row) {
+  if (f->terms >> at & 1) {
+    add_term(row, hi_of(f, at), lo_of(f, at), s->y[j]);
+    s->g[j] = vfma(hi_of(f, at), s->y[i], s->g[j]);
+  }
+}
+
+/* (...) y_i of (A x + D y + E z + G) x + (B y + F z + H) y + (C z + I) z + J; square, first and second: the terms' places. */
+QN_INLINE void add_row(const surface_numbers *f, int i, int square, int first, int second, spot *s, vdd *p) {
+  if (f->axes >> i & 1) {
+    vdd row = {hi_of(f, 6 + i), lo_of(f, 6 + i)};
+    add_product(f, square, i, i, s, &row);
+    if (i < 2) {
+      add_product(f, first, i, i + 1, s, &row);
+    }
+    if (i < 1) {
+      add_product(f, second, i, i + 2, s, &row);
+    }
+    s->g[i] = vadd(s->g[i], row.hi);
+    add_term(p, row.hi, row.lo, s->y[i]);
+  }
+}
 
 QN_INLINE residual residual_at(const surface_numbers *f, const rough_places *at) {
   const vd zero = vset(0);
-  vd y[3] = {zero, zero, zero}, low[3] = {zero, zero, zero}, g[3] = {zero, zero, zero}, S = zero, D = zero;
-  for (int j = 0; j < 3; j++) {
-    if (f->axes >> j & 1) {
-      vdd w = vtwo_difference(at->o[j], number_of(f, QN_ROUNDING_PIVOT + j)), m = vtwo_product(at->t, at->d[j]), x = vtwo_sum(w.hi, m.hi);
-      y[j] = x.hi, low[j] = vadd(vadd(w.lo, m.lo), x.lo);
-      S = vadd(S, vadd(vabs(w.hi), vabs(m.hi))), D = vadd(D, vabs(at->d[j]));
-    }
-  }
+  spot s = {.S = zero, .D = zero};
+  find_coordinate(f, at, 0, &s);
+  find_coordinate(f, at, 1, &s);
+  find_coordinate(f, at, 2, &s);
   vdd p = {hi_of(f, 9), lo_of(f, 9)};
-  for (int i = 0; i < 3; i++) {
-    if (!(f->terms & ROW_TERMS[i])) {
-      continue;
-    }
-    vdd row = {hi_of(f, 6 + i), lo_of(f, 6 + i)};
-    for (int j = i; j < 3; j++) {
-      if (f->terms >> PLACE_OF_PRODUCT[i][j] & 1) {
-        add_term(&row, hi_of(f, PLACE_OF_PRODUCT[i][j]), lo_of(f, PLACE_OF_PRODUCT[i][j]), y[j]);
-        g[j] = vfma(hi_of(f, PLACE_OF_PRODUCT[i][j]), y[i], g[j]);
-      }
-    }
-    g[i] = vadd(g[i], row.hi);
-    add_term(&p, row.hi, row.lo, y[i]);
-  }
+  add_row(f, 0, 0, 3, 4, &s, &p);
+  add_row(f, 1, 1, 5, 0, &s, &p);
+  add_row(f, 2, 2, 0, 0, &s, &p);
   vd slope = zero, rest = zero;
   for (int j = 0; j < 3; j++) {
     if (f->axes >> j & 1) {
-      slope = vfma(g[j], at->d[j], slope), rest = vfma(g[j], low[j], rest);
+      slope = vfma(s.g[j], at->d[j], slope), rest = vfma(s.g[j], s.low[j], rest);
     }
   }
   vd K2 = number_of(f, QN_ROUNDING_SQUARE), K1 = number_of(f, QN_ROUNDING_LINEAR), K0 = number_of(f, QN_ROUNDING_CONSTANT);
-  vd KS = vmul(K2, S);
+  vd KS = f->terms & 63 ? vmul(K2, s.S) : zero;
   residual r = {.p = vadd(p.hi, vadd(p.lo, rest)), .slope = slope};
-  r.p_error = vmul(vset(QN_ROUND_EVAL), vfma(vadd(KS, K1), S, K0));
-  r.slope_error = vmul(vmul(vset(QN_ROUND_SLOPE), D), vadd(vadd(KS, KS), K1));
-  r.curve = vmul(vmul(K2, D), D);
-  r.sound = vand(vle(S, vset(QN_ROUND_LARGEST)), vand(vle(vset(1 / QN_ROUND_WIDEST), D), vle(D, vset(QN_ROUND_WIDEST))));
+  r.p_error = vmul(vset(QN_ROUND_EVAL), vfma(vadd(KS, K1), s.S, K0));
+  r.slope_error = vmul(vmul(vset(QN_ROUND_SLOPE), s.D), vadd(vadd(KS, KS), K1));
+  r.curve = f->terms & 63 ? vmul(vmul(K2, s.D), s.D) : zero;
+  r.sound = vand(vle(s.S, vset(QN_ROUND_LARGEST)), vand(vle(vset(1 / QN_ROUND_WIDEST), s.D), vle(s.D, vset(QN_ROUND_WIDEST))));
   return r;
 }
 

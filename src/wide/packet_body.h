@@ -376,9 +376,9 @@ static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
-  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
+  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.tied = 0, w.counts = (qn_wide_counts){0};
   facts(&w, packet);
-  hits->unsure = hits->found = hits->leaving = hits->far_end = 0;
+  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
   const qn_union *root = &scene->normal.unions[scene->normal.root];
   if (root->wide == 0) { /* nothing near: no ray need be made */
     _Alignas(32) float near[8];
@@ -425,6 +425,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     }
   }
   hits->unsure = w.unsure & packet->live;
+  hits->tied = w.tied;
   hits->found = found & packet->live & ~w.unsure;
   hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
   hits->far_end = 0;

@@ -1,6 +1,6 @@
 /* The doubles nearest to the hits of a packet, compiled once for each instruction set. Neighbouring lanes mostly hit one surface, whose
-   numbers are then the same in all lanes; lanes of mixed groups are gathered, by the kinds of their surfaces. Each kind has a body of
-   its own, with the terms that it has. */
+   numbers are then the same in all lanes; a group of two surfaces is taken twice, and lanes of yet other surfaces are gathered by the
+   kinds of these. Each kind has a body of its own, with the terms that it has. */
 #include "wide/newton.h"
 #include "wide/packet.h"
 
@@ -20,7 +20,7 @@ static const int AXES[QN_ROUNDING_KINDS] = {1, 3, 2, 3, 3};
 
 /* Groups g to end - 1; kind is a constant wherever this is called. */
 QN_INLINE uint64_t run_of(qn_rounding_kind kind, const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g, int end, double *t) {
-  const surface_numbers f = {surface->k, TERMS[kind], (1u << AXES[kind]) - 1, 1};
+  const surface_numbers f = {{surface->k}, TERMS[kind], (1u << AXES[kind]) - 1, 1};
   const double *o[3], *d[3];
   uint64_t sure = 0;
   for (int j = 0; j < AXES[kind]; j++) {
@@ -60,33 +60,25 @@ typedef struct gathered {
 } gathered;
 
 QN_INLINE uint64_t gathered_of(qn_rounding_kind kind, const gathered *list, const qn_packet *p, const qn_packet_hits *hits, double *t) {
-  _Alignas(64) double k[QN_ROUNDING_NUMBERS * QN_W], o[3][QN_W], d[3][QN_W], near[QN_W], error[QN_W], out[QN_W];
-  const surface_numbers f = {k, TERMS[kind], (1u << AXES[kind]) - 1, 0};
+  surface_numbers f = {{NULL}, TERMS[kind], (1u << AXES[kind]) - 1, 0};
   uint64_t sure = 0;
   for (unsigned first = 0; first < list->count; first += QN_W) {
+    const double *o[3][QN_W], *d[3][QN_W], *near[QN_W], *error[QN_W];
     for (unsigned i = 0; i < QN_W; i++) {
       unsigned from = first + i < list->count ? first + i : first, lane = list->lane[from]; /* filled up with copies of the first */
       const qn_rounding *surface = list->surface[from];
-      for (unsigned n = 0; n < 10; n++) {
-        if (TERMS[kind] >> n & 1) {
-          k[(QN_ROUNDING_HI + n) * QN_W + i] = surface->k[QN_ROUNDING_HI + n];
-          k[(QN_ROUNDING_LO + n) * QN_W + i] = surface->k[QN_ROUNDING_LO + n];
-        }
-      }
-      for (unsigned n = QN_ROUNDING_SQUARE; n <= QN_ROUNDING_CONSTANT; n++) {
-        k[n * QN_W + i] = surface->k[n];
-      }
+      f.k[i] = surface->k;
       for (int j = 0; j < AXES[kind]; j++) {
-        k[(QN_ROUNDING_PIVOT + j) * QN_W + (int)i] = surface->k[QN_ROUNDING_PIVOT + j];
-        o[j][i] = p->o[surface->axis[j]][lane], d[j][i] = p->d[surface->axis[j]][lane];
+        o[j][i] = &p->o[surface->axis[j]][lane], d[j][i] = &p->d[surface->axis[j]][lane];
       }
-      near[i] = hits->t[lane], error[i] = hits->error[lane];
+      near[i] = &hits->t[lane], error[i] = &hits->error[lane];
     }
-    rough_places places = {.t = vload(near), .e = vload(error)};
+    rough_places places = {.t = vcollect(near, 0), .e = vcollect(error, 0)};
     for (int j = 0; j < AXES[kind]; j++) {
-      places.o[j] = vload(o[j]), places.d[j] = vload(d[j]);
+      places.o[j] = vcollect(o[j], 0), places.d[j] = vcollect(d[j], 0);
     }
     vd rounded;
+    _Alignas(64) double out[QN_W];
     unsigned bits = vbits(round_places(&f, &places, &rounded));
     vstore(out, rounded);
     for (unsigned i = 0; i < QN_W && first + i < list->count; i++) {
@@ -106,40 +98,63 @@ static uint64_t round_gathered(const gathered lists[QN_ROUNDING_KINDS], const qn
 
 /* --- a packet -------------------------------------------------------------------------------------------------------- */
 
+/* The lanes of group g, of those in `bits`, that are on this surface. */
+QN_INLINE unsigned lanes_on(const uint32_t *surfaces, uint32_t surface, unsigned bits) {
+  unsigned on = 0;
+  for (unsigned i = 0; i < QN_W; i++) {
+    on |= (unsigned)(surfaces[i] == surface) << i;
+  }
+  return on & bits;
+}
+
+/* A group's second surface. */
+typedef struct second_surface {
+  const qn_rounding *surface;
+  int group;
+  unsigned bits;
+} second_surface;
+
 uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
                              uint64_t *made);
 uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
                              uint64_t *made) {
-  uint64_t sure = 0;
+  uint64_t sure = 0, first_lanes = 0;
   const qn_rounding *shared[GROUPS + 1] = {NULL};
+  second_surface seconds[GROUPS];
   gathered lists[QN_ROUNDING_KINDS];
-  int mixed = 0;
+  int second_count = 0, mixed = 0;
   for (int g = 0; g < GROUPS; g++) {
-    unsigned bits = (unsigned)(lanes >> (g * QN_W)) & QN_ALL_BITS, differ = 0;
+    unsigned bits = (unsigned)(lanes >> (g * QN_W)) & QN_ALL_BITS;
     if (!bits) {
       continue;
     }
-    const uint32_t *surface = hits->surface + g * QN_W;
-    uint32_t one = surface[qn_trailing_zeros(bits)];
-    for (unsigned i = 0; i < QN_W; i++) {
-      differ |= (unsigned)(surface[i] != one) << i;
-    }
-    if (!(differ & bits)) {
-      shared[g] = qn_scene_rounding(scene, one, made);
+    const uint32_t *surfaces = hits->surface + g * QN_W;
+    uint32_t surface = surfaces[qn_trailing_zeros(bits)];
+    unsigned on = lanes_on(surfaces, surface, bits);
+    shared[g] = qn_scene_rounding(scene, surface, made);
+    first_lanes |= (uint64_t)on << (g * QN_W);
+    if (QN_LIKELY(!(bits &= ~on))) {
       continue;
     }
-    for (int i = 0; !mixed && i < QN_ROUNDING_KINDS; i++) {
-      lists[i].count = 0;
+    surface = surfaces[qn_trailing_zeros(bits)];
+    on = lanes_on(surfaces, surface, bits);
+    const qn_rounding *second = qn_scene_rounding(scene, surface, made);
+    if (second) {
+      seconds[second_count++] = (second_surface){second, g, on};
     }
-    mixed = 1;
-    for (; bits; bits &= bits - 1) {
+    for (bits &= ~on; bits; bits &= bits - 1) {
       unsigned i = qn_trailing_zeros(bits);
-      const qn_rounding *own = qn_scene_rounding(scene, surface[i], made);
-      if (own && own->kind != QN_ROUNDING_NONE) {
-        gathered *list = &lists[own->kind];
-        list->lane[list->count] = (uint8_t)((unsigned)g * QN_W + i);
-        list->surface[list->count++] = own;
+      const qn_rounding *own = qn_scene_rounding(scene, surfaces[i], made);
+      if (!own || own->kind == QN_ROUNDING_NONE) {
+        continue;
       }
+      for (int k = 0; !mixed && k < QN_ROUNDING_KINDS; k++) {
+        lists[k].count = 0;
+      }
+      mixed = 1;
+      gathered *list = &lists[own->kind];
+      list->lane[list->count] = (uint8_t)((unsigned)g * QN_W + i);
+      list->surface[list->count++] = own;
     }
   }
   for (int g = 0, end; g < GROUPS; g = end) {
@@ -151,6 +166,16 @@ uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *p
       sure |= round_run(shared[g], packet, hits, g, end, t);
     }
   }
-  sure &= lanes;
-  return mixed ? sure | (round_gathered(lists, packet, hits, t) & lanes) : sure;
+  sure &= first_lanes;
+  for (int i = 0; i < second_count; i++) {
+    const second_surface *s = &seconds[i];
+    _Alignas(64) double own[QN_LANES];
+    uint64_t on = round_run(s->surface, packet, hits, s->group, s->group + 1, own) & (uint64_t)s->bits << (s->group * QN_W);
+    sure |= on;
+    for (; on; on &= on - 1) {
+      unsigned lane = qn_trailing_zeros(on);
+      t[lane] = own[lane];
+    }
+  }
+  return mixed ? sure | round_gathered(lists, packet, hits, t) : sure;
 }

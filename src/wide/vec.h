@@ -18,6 +18,9 @@ typedef __m512d vd;
 typedef __mmask8 vm;
 QN_INLINE vd vset(double a) { return _mm512_set1_pd(a); }
 QN_INLINE vd vload(const double *p) { return _mm512_load_pd(p); }
+QN_INLINE vd vcollect(const double *const p[QN_W], int i) { /* lane j is p[j][i] */
+  return _mm512_set_pd(p[7][i], p[6][i], p[5][i], p[4][i], p[3][i], p[2][i], p[1][i], p[0][i]);
+}
 QN_INLINE void vstore(double *p, vd a) { _mm512_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm512_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm512_sub_pd(a, b); }
@@ -46,6 +49,7 @@ typedef __m256d vd;
 typedef __m256d vm;
 QN_INLINE vd vset(double a) { return _mm256_set1_pd(a); }
 QN_INLINE vd vload(const double *p) { return _mm256_load_pd(p); }
+QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm256_set_pd(p[3][i], p[2][i], p[1][i], p[0][i]); }
 QN_INLINE void vstore(double *p, vd a) { _mm256_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm256_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm256_sub_pd(a, b); }
@@ -77,6 +81,7 @@ typedef __m128d vd;
 typedef __m128d vm;
 QN_INLINE vd vset(double a) { return _mm_set1_pd(a); }
 QN_INLINE vd vload(const double *p) { return _mm_load_pd(p); }
+QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm_set_pd(p[1][i], p[0][i]); }
 QN_INLINE void vstore(double *p, vd a) { _mm_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm_sub_pd(a, b); }

@@ -17,6 +17,7 @@ typedef struct walk {
   const struct quoin_scene *scene;
   const qn_normal *normal;
   uint64_t unsure;
+  uint64_t tied; /* lanes in which ends of two leaves were equal: which of them is named is not for the packet to say */
   qn_wide_counts counts;
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
   _Alignas(64) double tolerance[QN_LANES_NOW]; /* the sum of any two errors of this lane so far */
@@ -53,6 +54,7 @@ static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd px, vd py,
       const uint64_t who = (a | b) & QN_STARTS_ON ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
       if ((a & who) == (b & who)) {
         *equal |= 1u << i;
+        w->tied |= (uint64_t)(!((a | b) & QN_STARTS_ON) && (a >> 32 & QN_LEAF_BITS) != (b >> 32 & QN_LEAF_BITS)) << (g * QN_W + i);
       } else {
         w->unsure |= (uint64_t)1 << (g * QN_W + i);
       }

@@ -75,7 +75,7 @@ typedef struct reference {
   size_t sample_count;
 } reference;
 
-/* What the oracle says of ray k in lane->rays, or point k of the block; 0 when it does not judge it. */
+/* What the oracle says of ray k in lane->asked, or point k of the block; 0 when it does not judge it. */
 static int ask_oracle(bench *b, const path *p, const path_lane *lane, size_t block, size_t k, sample *out) {
   if (p->question == ASK_SIDES) {
     int side = oracle_point(b->oracle, b->job.lists.points + 3 * (block * BLOCK + k));
@@ -87,8 +87,8 @@ static int ask_oracle(bench *b, const path *p, const path_lane *lane, size_t blo
   }
   static oracle_interval found[MOST_STRETCHES];
   int zero; /* the directions of rays with the filter off are multiples of the camera's, and their answers are scaled back */
-  const double *d = p->rays == RAYS_CAMERA ? b->camera.d : lane->rays[k].d;
-  long n = oracle_ray(b->oracle, lane->rays[k].o, d, MOST_STRETCHES, found, &zero);
+  const double *d = p->rays == RAYS_CAMERA ? b->camera.d : lane->asked[k].d;
+  long n = oracle_ray(b->oracle, lane->asked[k].o, d, MOST_STRETCHES, found, &zero);
   out->place = lane->place[k];
   out->places = PATH_NO_PLACES;
   int first = p->question == ASK_HITS || p->question == ASK_SPOTS;
@@ -114,7 +114,7 @@ static int draw_samples(bench *b, const path *p, reference *ref, path_lane *lane
     one->block = bench_u64(&state) % ref->blocks;
     path_answer again[BLOCK];
     lane->answers = again;
-    size_t count = p->block(&b->job, lane, order[one->block]); /* fills lane->rays again */
+    size_t count = p->block(&b->job, lane, order[one->block]); /* fills lane->asked again */
     lane->answers = NULL;
     ref->sample_count += (size_t)ask_oracle(b, p, lane, order[one->block], bench_u64(&state) % count, one);
   }
@@ -459,13 +459,11 @@ int main(int argc, char **argv) {
     }
     right &= report(&b, &PATHS[i], &v, lanes);
   }
-  double sum = 0;
   for (unsigned i = 0; i < b.opt.threads; i++) {
     if (lanes[i]->status != QUOIN_OK) {
       fprintf(stderr, "a call failed: %s\n", quoin_status_text(lanes[i]->status));
       right = 0;
     }
-    sum += lanes[i]->sum;
     path_lane_free(lanes[i]);
   }
   for (int i = 0; i < RAY_KINDS; i++) {
@@ -478,5 +476,5 @@ int main(int argc, char **argv) {
   oracle_free(b.oracle);
   flat_free(&b.flat);
   quoin_scene_free(scene);
-  return right && sum == sum ? 0 : 1;
+  return right ? 0 : 1;
 }

@@ -82,6 +82,7 @@ static size_t rows(const bench_camera *c, size_t block, double scale, path_lane 
       camera_ray(c, &e, i, j, scale, k++, lane);
     }
   }
+  lane->asked = lane->rays;
   return k;
 }
 
@@ -98,13 +99,14 @@ static size_t tiles(const bench_camera *c, size_t block, path_lane *lane) {
       }
     }
   }
+  lane->asked = lane->rays;
   return k;
 }
 
 static size_t listed(const quoin_ray *all, size_t count, size_t block, path_lane *lane) {
   size_t n = count - block * BLOCK < BLOCK ? count - block * BLOCK : BLOCK;
-  memcpy(lane->rays, all + block * BLOCK, n * sizeof *all);
-  for (size_t k = 0; k < n; k++) {
+  lane->asked = all + block * BLOCK;
+  for (size_t k = 0; lane->answers && k < n; k++) {
     lane->place[k] = (uint16_t)k;
   }
   return n;
@@ -113,11 +115,8 @@ static size_t listed(const quoin_ray *all, size_t count, size_t block, path_lane
 /* --- the calls ------------------------------------------------------------------------------------------------------- */
 
 static void keep_hits(path_lane *lane, size_t n) {
-  for (size_t k = 0; k < n; k++) {
-    lane->sum += lane->hits[k].t;
-    if (lane->answers) {
-      keep_hit(lane, lane->place[k], &lane->hits[k]);
-    }
+  for (size_t k = 0; lane->answers && k < n; k++) {
+    keep_hit(lane, lane->place[k], &lane->hits[k]);
   }
 }
 
@@ -126,14 +125,16 @@ static void fail(path_lane *lane, quoin_status status) {
 }
 
 static size_t hits_of(const path_job *job, path_lane *lane, size_t n) {
-  fail(lane, quoin_first_hits(job->scene, lane->work, n, lane->rays, lane->hits));
+  for (size_t k = 0; k < n; k += CALL) {
+    fail(lane, quoin_first_hits(job->scene, lane->work, n - k < CALL ? n - k : CALL, lane->asked + k, lane->hits + (lane->answers ? k : 0)));
+  }
   keep_hits(lane, n);
   return n;
 }
 
 static size_t single_hits_of(const path_job *job, path_lane *lane, size_t n) {
   for (size_t k = 0; k < n; k++) {
-    fail(lane, quoin_first_hit(job->scene, lane->work, &lane->rays[k], &lane->hits[k]));
+    fail(lane, quoin_first_hit(job->scene, lane->work, &lane->asked[k], &lane->hits[lane->answers ? k : 0]));
   }
   keep_hits(lane, n);
   return n;
@@ -141,7 +142,6 @@ static size_t single_hits_of(const path_job *job, path_lane *lane, size_t n) {
 
 static int each_answer(void *user, size_t i, const quoin_intervals *answer) {
   path_lane *lane = user;
-  lane->sum += (double)answer->count;
   if (lane->answers) {
     keep_intervals(lane, lane->place[i], answer, 1);
   }
@@ -167,7 +167,6 @@ static size_t intervals_one_by_one(const path_job *job, path_lane *lane, size_t 
   for (size_t k = 0; k < n; k++) {
     quoin_intervals answer;
     fail(lane, quoin_ray_intervals(job->scene, lane->work, &lane->rays[k], 0, &answer));
-    lane->sum += (double)answer.count;
     if (lane->answers) {
       keep_intervals(lane, lane->place[k], &answer, scale);
     }
@@ -204,18 +203,15 @@ static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsig
   memcpy(g.d, c->d, sizeof g.d);
   fail(lane, quoin_grid_hits(job->scene, lane->work, &g, e.x, e.y, e.x + e.w, e.y + e.h, want, lane->spots));
   size_t n = (size_t)e.w * e.h;
-  for (size_t k = 0; k < n; k++) {
+  for (size_t k = 0; lane->answers && k < n; k++) {
     const quoin_spot *s = &lane->spots[k];
-    lane->sum += s->t;
-    if (lane->answers) {
-      path_answer *a = &lane->answers[k];
-      *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, s->surface != QUOIN_NO_SURFACE};
-      mix(&a->hash, &s->surface, sizeof s->surface);
-      if (a->count) {
-        mix(&a->hash, &s->leaving, sizeof s->leaving);
-        path_places(&a->places, s->t);
-        a->t = s->t;
-      }
+    path_answer *a = &lane->answers[k];
+    *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, s->surface != QUOIN_NO_SURFACE};
+    mix(&a->hash, &s->surface, sizeof s->surface);
+    if (a->count) {
+      mix(&a->hash, &s->leaving, sizeof s->leaving);
+      path_places(&a->places, s->t);
+      a->t = s->t;
     }
   }
   if (lane->answers) { /* whoever judges wants to see the rays */
@@ -231,11 +227,8 @@ static size_t block_grid_t(const path_job *job, path_lane *lane, size_t block) {
 }
 
 static void keep_sides(path_lane *lane, size_t n) {
-  for (size_t k = 0; k < n; k++) {
-    lane->sum += (double)lane->sides[k];
-    if (lane->answers) {
-      lane->answers[k] = (path_answer){(uint64_t)lane->sides[k], (uint64_t)lane->sides[k], 0, 1};
-    }
+  for (size_t k = 0; lane->answers && k < n; k++) {
+    lane->answers[k] = (path_answer){(uint64_t)lane->sides[k], (uint64_t)lane->sides[k], 0, 1};
   }
 }
 static size_t block_points(const path_job *job, path_lane *lane, size_t block) {
@@ -326,7 +319,7 @@ static int make_shadow(path_job *job, path_lane *lane, size_t n) {
   double begin = bench_now();
   for (size_t b = step / 2; b < all && bench_now() - begin < 5; b += step) {
     size_t count = tiles(c, b, lane);
-    hits_of(job, lane, count);
+    fail(lane, quoin_first_hits(job->scene, lane->work, count, lane->rays, lane->hits));
     for (size_t k = 0; k < count; k++) {
       const quoin_hit *h = &lane->hits[k];
       if (h->found) {

@@ -5,6 +5,7 @@
 #include "grid.h"
 
 enum { BLOCK_EDGE = 64, BLOCK = BLOCK_EDGE * BLOCK_EDGE }; /* the unit of work: 64 x 64 pixels, or 4096 rays or points of a list */
+enum { CALL = 512 }; /* rays of an array in one call: 8 tiles of 8 x 8, so that rays and answers stay in the nearer caches */
 
 /* What is asked; answers of paths with the same question about the same rays must be the same bytes. */
 typedef enum path_question { ASK_HITS, ASK_SPOTS, ASK_INTERVALS, ASK_SIDES, QUESTIONS } path_question;
@@ -36,12 +37,12 @@ typedef struct path_job {
 typedef struct path_lane {
   quoin_work *work;
   quoin_ray rays[BLOCK];
-  quoin_hit hits[BLOCK];
+  const quoin_ray *asked;   /* the block's rays: these, or a piece of a list */
+  quoin_hit hits[BLOCK];    /* only the first CALL of them in use when nothing is judged */
   quoin_spot spots[BLOCK];
   quoin_side sides[BLOCK];
   uint16_t place[BLOCK];    /* of ray k in the block's row-major order */
   path_answer *answers;     /* null when only time is wanted; else BLOCK of them, row-major */
-  double sum;               /* so that no answer is unused */
   quoin_status status;
 } path_lane;
 

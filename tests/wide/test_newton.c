@@ -41,7 +41,7 @@ static void all(void (*f)(mpq_ptr)) {
   }
 }
 
-static void add_product(mpq_t sum, const mpq_t a, const mpq_t b, const mpq_t c) {
+static void sum_product(mpq_t sum, const mpq_t a, const mpq_t b, const mpq_t c) {
   mpq_mul(T.z, a, b);
   mpq_mul(T.z, T.z, c);
   mpq_add(sum, sum, T.z);
@@ -65,15 +65,15 @@ static void exact_values(void) {
   mpq_set_si(T.slope, 0, 1);
   mpq_set_si(T.a, 0, 1);
   for (int j = 0; j < 3; j++) {
-    add_product(T.p, T.K[6 + j], T.y[j], T.x);
-    add_product(T.slope, T.K[6 + j], T.d[j], T.x);
+    sum_product(T.p, T.K[6 + j], T.y[j], T.x);
+    sum_product(T.slope, T.K[6 + j], T.d[j], T.x);
   }
   for (int i = 0; i < 6; i++) {
     int a = PAIR[i][0], b = PAIR[i][1];
-    add_product(T.p, T.K[i], T.y[a], T.y[b]);
-    add_product(T.slope, T.K[i], T.y[a], T.d[b]);
-    add_product(T.slope, T.K[i], T.d[a], T.y[b]);
-    add_product(T.a, T.K[i], T.d[a], T.d[b]);
+    sum_product(T.p, T.K[i], T.y[a], T.y[b]);
+    sum_product(T.slope, T.K[i], T.y[a], T.d[b]);
+    sum_product(T.slope, T.K[i], T.d[a], T.y[b]);
+    sum_product(T.a, T.K[i], T.d[a], T.d[b]);
   }
 }
 
@@ -112,7 +112,7 @@ typedef struct census { unsigned sound, unsound, planes, mixed, near, dropped; d
 
 static void one_vector(census *c) {
   _Alignas(64) double k[QN_ROUNDING_NUMBERS] = {0}, o[3][QN_W], d[3][QN_W], t[QN_W];
-  surface_numbers f = {k, 0, 0, 1};
+  surface_numbers f = {{k}, 0, 0, 1}, each = {{NULL}, 1023, 7, 0}; /* each: every term there, the missing ones as zeros */
   int plane = one_in(4), mixed = !plane && one_in(2), linear = plane || one_in(2), sphere = !plane && !mixed && one_in(2);
   int low = one_in(3) ? -40 : -4, scale = one_in(5) ? 40 : one_in(3) ? 20 : 3, far = one_in(4) ? (int)(next() % 38) : scale;
   scale = far < scale ? far : scale;
@@ -184,16 +184,15 @@ static void one_vector(census *c) {
   k[QN_ROUNDING_LINEAR] = most[1] + QN_ROUND_LINEAR_TINY;
   k[QN_ROUNDING_CONSTANT] = most[0] + QN_ROUND_TINY;
 
-  _Alignas(64) double many[QN_ROUNDING_NUMBERS * QN_W], p[2][QN_W], slope[QN_W], pe[QN_W], se[QN_W], a[QN_W];
-  for (int i = 0; i < QN_ROUNDING_NUMBERS * QN_W; i++) {
-    many[i] = k[i / QN_W];
+  _Alignas(64) double p[2][QN_W], slope[QN_W], pe[QN_W], se[QN_W], a[QN_W];
+  for (int lane = 0; lane < QN_W; lane++) {
+    each.k[lane] = k;
   }
   rough_places at = {.t = vload(t), .e = vset(0)};
   for (int j = 0; j < 3; j++) {
     at.o[j] = vload(o[j]), at.d[j] = vload(d[j]);
   }
-  const surface_numbers gathered = {many, 1023, 7, 0}; /* every term there, the missing ones as zeros */
-  residual r = residual_at(&f, &at), all_terms = residual_at(&gathered, &at);
+  residual r = residual_at(&f, &at), all_terms = residual_at(&each, &at);
   vstore(p[0], r.p), vstore(p[1], all_terms.p), vstore(slope, r.slope);
   vstore(pe, r.p_error), vstore(se, r.slope_error), vstore(a, r.curve);
   unsigned sound = vbits(r.sound);

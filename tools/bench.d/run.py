@@ -12,6 +12,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import povray # noqa: E402
+import report # noqa: E402
 
 SCENES = ['sphere1', 'plate1000', 'spheres10k', 'spheres1M', 'tree1024', 'tree1024fat', 'menger4', 'parts2000', 'plate100k', 'tree65k', 'coplanar']
 QUICK_SCENES = ['sphere1', 'plate1000', 'spheres10k', 'tree1024', 'menger4']
@@ -329,6 +330,11 @@ def main():
             p.error('no part is called ' + name)
         b.say(name)
         parts[name](b)
+    partial = b.args.quick or b.args.scene or b.args.path or b.args.no_peers or len(b.args.only) < len(parts)
+    page = os.path.join(HERE, '..', '..', 'docs', 'benchmarks.md') if not partial or b.args.page else os.path.join(b.results, 'benchmarks.md')
+    page = os.path.normpath(page)
+    report.write(b.results, page, ' '.join(['tools/bench'] + [a for a in sys.argv[1:] if a not in ('--build', b.args.build)]))
+    b.say('wrote ' + os.path.relpath(page))
 
 
 if __name__ == '__main__':

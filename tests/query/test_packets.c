@@ -1,0 +1,310 @@
+/* Packets against the woven path: every lane that a packet body answers, on every instruction set this machine runs and in every lane
+   position, must have the woven path's surface and side, a parameter within its error, and one that rounds to the same double; grids and many
+   first hits must come out as rays asked one by one.
+
+   Run with a number for more: query_test_packets [models [seed]]. Prints a census: what was met, and how many lanes were given up. */
+#include "ask.h"
+#include "query/look.h"
+
+#include "packet_cases.h"
+
+#include <stdio.h>
+
+static size_t model_count = 400;
+static uint64_t first_seed = 0x9e3779b97f4a7c15u;
+
+typedef struct truth { int status, found, leaving; uint32_t part, surface, role; double t; } truth;
+
+/* What the ray meets first, by the woven path alone. */
+static truth weave_ray(const ask *a, const quoin_ray *ray) {
+  truth out = {0};
+  qn_line line;
+  qn_woven woven;
+  qn_query_begin(a->work);
+  qn_line_from_doubles(ray->o, ray->d, &line);
+  const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
+  out.status = qn_weave(a->scene, a->work->scratch, &line, &range, QN_WANT_FIRST, &woven);
+  if (out.status == QUOIN_OK && woven.inside_count) {
+    const qn_stretch *first = &woven.inside[0];
+    out.leaving = first->enter.leaf == UINT32_MAX;
+    const qn_stop *stop = out.leaving ? &first->leave : &first->enter;
+    if (stop->leaf != UINT32_MAX) {
+      out.found = 1;
+      out.surface = a->scene->halves[stop->half].surface;
+      out.role = a->scene->halves[stop->half].role;
+      out.part = stop->leaf;
+      out.t = qn_place_round(a->scene, a->work->scratch, &line, &stop->place);
+    }
+  }
+  return out;
+}
+
+typedef struct shares { uint64_t lanes, found, leaving, unsure; } shares;
+static shares by_model[MODELS], by_bundle[BUNDLES], by_frame[FRAMES], by_isa[3], table[MODELS][BUNDLES];
+static const qn_wide *bodies[3];
+static size_t body_count;
+static size_t failures;
+enum { failures_shown = 3 };
+
+static void find_bodies(void) {
+  static const char *const names[3] = {"sse2", "avx2", "avx512"};
+  for (size_t i = 0; i < 3; i++) {
+    setenv("QUOIN_ISA", names[i], 1);
+    const qn_wide *w = qn_wide_pick();
+    if (strcmp(w->name, names[i]) == 0) {
+      bodies[body_count++] = w;
+    }
+  }
+  unsetenv("QUOIN_ISA");
+}
+
+typedef struct kind { int model, bundle, frame; } kind;
+
+static void blame(const char *what, const char *text, const char *body, kind k, const quoin_ray *ray, const truth *want, const qn_packet_hits *hits, unsigned lane) {
+  if (failures++ < failures_shown) {
+    printf("%s (%s, %s, %s, %s)\n%s", what, body, MODEL_NAMES[k.model], BUNDLE_NAMES[k.bundle], FRAME_NAMES[k.frame], text); /* longer than cmocka prints */
+    printf("ray {{%a, %a, %a}, {%a, %a, %a}, %a, %a}\n", ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2], ray->from, ray->to);
+    printf("  = %.17g %.17g %.17g %.17g %.17g %.17g\n", ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2]);
+    printf("woven: found %d leaving %d surface %u t %.17g\n", want->found, want->leaving, want->surface, want->t);
+    if (hits) {
+      printf("packet: found %d leaving %d surface %u t %.17g +- %g, lane %u\n", (int)(hits->found >> lane & 1), (int)(hits->leaving >> lane & 1), hits->surface[lane],
+             hits->t[lane], hits->error[lane], lane);
+    }
+  }
+}
+
+static void tally(shares *c, const qn_packet_hits *hits, uint64_t live) {
+  c->lanes += (uint64_t)__builtin_popcountll(live);
+  c->found += (uint64_t)__builtin_popcountll(hits->found);
+  c->leaving += (uint64_t)__builtin_popcountll(hits->leaving);
+  c->unsure += (uint64_t)__builtin_popcountll(hits->unsure);
+}
+
+static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet *p, uint64_t live, const quoin_ray *rays, const truth *want, const uint8_t *lane_of) {
+  qn_packet_hits hits;
+  qn_wide_counts counts = {0};
+  p->live = live;
+  (p->few ? bodies[body]->few : bodies[body]->first)(a->scene, p, &hits, &counts);
+  _Alignas(64) double rounded[QN_LANES];
+  uint64_t made = 0, sure = 0;
+  if ((hits.found | hits.unsure) & ~live || hits.found & hits.unsure || hits.leaving & ~hits.found) {
+    blame("lanes that are not there", text, bodies[body]->name, k, &rays[0], &want[0], NULL, 0);
+    return;
+  }
+  for (uint64_t m = hits.found; m; m &= m - 1) {
+    if (hits.surface[qn_trailing_zeros(m)] >= a->scene->surface_count) {
+      unsigned lane = qn_trailing_zeros(m);
+      blame("no such surface", text, bodies[body]->name, k, &rays[lane_of[lane]], &want[lane_of[lane]], &hits, lane);
+      return;
+    }
+  }
+  sure = bodies[body]->round(a->scene, p, &hits, hits.found, rounded, &made);
+  tally(&by_model[k.model], &hits, live), tally(&by_bundle[k.bundle], &hits, live), tally(&by_frame[k.frame], &hits, live), tally(&by_isa[body], &hits, live);
+  tally(&table[k.model][k.bundle], &hits, live);
+  for (uint64_t m = live & ~hits.unsure; m; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    const truth *w = &want[lane_of[lane]];
+    const quoin_ray *ray = &rays[lane_of[lane]];
+    if (w->status != QUOIN_OK) {
+      continue;
+    }
+    int found = (int)(hits.found >> lane & 1);
+    if (found != w->found) {
+      blame("found or not", text, bodies[body]->name, k, ray, w, &hits, lane);
+    } else if (found) {
+      if (hits.surface[lane] != w->surface || (int)(hits.leaving >> lane & 1) != w->leaving) {
+        blame("surface or side", text, bodies[body]->name, k, ray, w, &hits, lane);
+      } else if (!(fabs(hits.t[lane] - w->t) <= hits.error[lane] + 0x1p-52 * fabs(w->t))) {
+        blame("parameter", text, bodies[body]->name, k, ray, w, &hits, lane);
+      } else if (sure >> lane & 1 && memcmp(&rounded[lane], &w->t, sizeof w->t)) {
+        blame("rounding", text, bodies[body]->name, k, ray, w, &hits, lane);
+      } else if (!(sure >> lane & 1)) {
+        const qn_place place = {.t = hits.t[lane], .e = hits.error[lane], .surface = hits.surface[lane], .which = (int)(hits.far_end >> lane & 1)};
+        qn_line line;
+        qn_query_begin(a->work);
+        qn_line_from_doubles(ray->o, ray->d, &line);
+        double t = qn_place_round(a->scene, a->work->scratch, &line, &place);
+        if (memcmp(&t, &w->t, sizeof t)) {
+          blame("rounding of a place", text, bodies[body]->name, k, ray, w, &hits, lane);
+        }
+      }
+    }
+  }
+}
+
+static void fill_packet(qn_packet *p, const quoin_ray *rays, unsigned lanes, const uint8_t *lane_of) {
+  p->tile = QN_TILE_NONE;
+  p->few = lanes == QN_FEW;
+  p->new_origins = p->new_directions = 1;
+  for (unsigned lane = 0; lane < lanes; lane++) {
+    const quoin_ray *r = &rays[lane_of[lane]];
+    for (int i = 0; i < 3; i++) {
+      p->o[i][lane] = r->o[i], p->d[i][lane] = r->d[i];
+    }
+    p->from[lane] = r->from, p->to[lane] = r->to, p->on[lane] = QUOIN_NO_SURFACE;
+  }
+}
+
+static int is_line(const quoin_ray *r) {
+  double finite = 0, size = 0;
+  for (int i = 0; i < 3; i++) {
+    finite += 0 * r->o[i] + 0 * r->d[i];
+    size += r->d[i] != 0;
+  }
+  return finite == 0 && size > 0 && r->from <= r->to;
+}
+
+static void one_bundle(dice *d, const ask *a, const char *text, kind k, const frame *f) {
+  quoin_ray rays[64];
+  truth want[64];
+  fill_bundle(d, k.bundle, f, rays);
+  for (int i = 0; i < 64; i++) {
+    if (!is_line(&rays[i])) {
+      return;
+    }
+    want[i] = weave_ray(a, &rays[i]);
+  }
+  /* As they are, and in other lanes. */
+  static qn_packet p;
+  uint8_t lane_of[64];
+  unsigned turn = (unsigned)roll(d, 64), step = 2 * (unsigned)roll(d, 32) + 1;
+  for (int pass = 0; pass < 2; pass++) {
+    for (unsigned lane = 0; lane < 64; lane++) {
+      lane_of[lane] = (uint8_t)(pass ? (turn + step * lane) % 64 : lane);
+    }
+    uint64_t live = roll(d, 3) ? ~(uint64_t)0 : ((uint64_t)roll(d, 1 << 20) * 0x9e3779b97f4a7c15u) | 1;
+    for (size_t body = 0; body < body_count; body++) {
+      fill_packet(&p, rays, 64, lane_of);
+      judge(a, text, k, body, &p, live, rays, want, lane_of);
+      fill_packet(&p, rays, QN_FEW, lane_of);
+      judge(a, text, k, body, &p, roll(d, 2) ? 0xff : live & 0xff, rays, want, lane_of);
+    }
+  }
+  /* As first hits, with everything that is said of them. */
+  if (roll(d, 4) == 0) {
+    size_t n = 1 + (size_t)roll(d, 64);
+    quoin_hit one, many[64];
+    quoin_work *work;
+    setenv("QUOIN_ISA", bodies[(size_t)roll(d, (int)body_count)]->name, 1);
+    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    quoin_status status = quoin_first_hits(a->scene, work, n, rays, many);
+    for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
+      if (want[i].status == QUOIN_OK) {
+        assert_int_equal(quoin_first_hit(a->scene, work, &rays[i], &one), QUOIN_OK);
+        if (one.found != want[i].found || (one.found && (one.part != want[i].part || one.role != want[i].role || one.leaving != want[i].leaving || memcmp(&one.t, &want[i].t, sizeof one.t)))) {
+          blame("a first hit", text, work->wide->name, k, &rays[i], &want[i], NULL, 0);
+        }
+        if (one.found != many[i].found || one.leaving != many[i].leaving || one.part != many[i].part || one.role != many[i].role || memcmp(&one.t, &many[i].t, sizeof one.t) ||
+            memcmp(one.normal, many[i].normal, sizeof one.normal) || memcmp(one.point, many[i].point, sizeof one.point) || memcmp(one.uv, many[i].uv, sizeof one.uv)) {
+          blame("one of many first hits", text, work->wide->name, k, &rays[i], &want[i], NULL, 0);
+        }
+      }
+    }
+    quoin_work_free(work);
+  }
+}
+
+/* A grid whose tiles are cut off at its right and lower ends, asked in parts. */
+static void one_grid(dice *d, const ask *a, const char *text, kind k, const frame *f) {
+  quoin_ray rays[64];
+  fill_bundle(d, k.bundle, f, rays);
+  if (!is_line(&rays[0])) {
+    return;
+  }
+  quoin_grid grid = {.width = 1 + (size_t)roll(d, 20), .height = 1 + (size_t)roll(d, 20), .from = rays[0].from, .to = rays[0].to};
+  grid.converging = memcmp(rays[0].o, rays[63].o, sizeof rays[0].o) == 0;
+  for (int i = 0; i < 3; i++) {
+    grid.o[i] = rays[0].o[i], grid.d[i] = rays[0].d[i];
+    const double *first = grid.converging ? rays[0].d : rays[0].o;
+    grid.u[i] = (grid.converging ? rays[21].d : rays[21].o)[i] - first[i], grid.v[i] = (grid.converging ? rays[42].d : rays[42].o)[i] - first[i];
+  }
+  size_t x0 = (size_t)roll(d, (int)grid.width), y0 = (size_t)roll(d, (int)grid.height), x1 = x0 + 1 + (size_t)roll(d, (int)(grid.width - x0)),
+         y1 = y0 + 1 + (size_t)roll(d, (int)(grid.height - y0));
+  quoin_spot spots[400];
+  quoin_work *work;
+  setenv("QUOIN_ISA", bodies[(size_t)roll(d, (int)body_count)]->name, 1);
+  assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
+  unsetenv("QUOIN_ISA");
+  quoin_status status = quoin_grid_hits(a->scene, work, &grid, x0, y0, x1, y1, QUOIN_WANT_T, spots);
+  for (size_t y = y0; y < y1 && status == QUOIN_OK; y++) {
+    for (size_t x = x0; x < x1; x++) {
+      double s = ((double)x + 0.5) / (double)grid.width, r = ((double)y + 0.5) / (double)grid.height;
+      quoin_ray ray = {.from = grid.from, .to = grid.to};
+      for (int i = 0; i < 3; i++) {
+        double a0 = (grid.converging ? grid.d : grid.o)[i] + s * grid.u[i], v = a0 + r * grid.v[i];
+        ray.o[i] = grid.converging ? grid.o[i] : v, ray.d[i] = grid.converging ? v : grid.d[i];
+      }
+      if (!is_line(&ray)) {
+        continue;
+      }
+      truth want = weave_ray(a, &ray);
+      const quoin_spot *got = &spots[(y - y0) * (x1 - x0) + (x - x0)];
+      if (want.status == QUOIN_OK && ((got->surface != QUOIN_NO_SURFACE) != want.found ||
+                                      (want.found && (got->surface != want.surface || (int)got->leaving != want.leaving || memcmp(&got->t, &want.t, sizeof want.t))))) {
+        blame("a grid's ray", text, work->wide->name, k, &ray, &want, NULL, 0);
+      }
+    }
+  }
+  quoin_work_free(work);
+}
+
+static void print_census(const char *title, const char *const *names, const shares *c, size_t n) {
+  print_message("%-22s %10s %7s %8s %8s\n", title, "lanes", "found", "leaving", "given up");
+  for (size_t i = 0; i < n; i++) {
+    if (c[i].lanes) {
+      double all = (double)c[i].lanes;
+      print_message("  %-20s %10.0f %6.1f%% %7.2f%% %7.3f%%\n", names[i], all, 100 * (double)c[i].found / all, 100 * (double)c[i].leaving / all, 100 * (double)c[i].unsure / all);
+    }
+  }
+}
+
+static void random_models(void **state) {
+  (void)state;
+  dice d = {first_seed};
+  for (size_t n = 0; n < model_count && failures < failures_shown; n++) {
+    static char text[40000];
+    kind k = {roll(&d, MODELS), 0, roll(&d, 3) ? 0 : roll(&d, FRAMES)};
+    frame f;
+    make_frame(&d, k.frame, &f);
+    write_model(&d, k.model, &f, text, sizeof text);
+    ask a;
+    ask_open(&a, text);
+    for (int i = 0; i < 6; i++) {
+      k.bundle = roll(&d, BUNDLES);
+      one_bundle(&d, &a, text, k, &f);
+    }
+    k.bundle = roll(&d, 9);
+    one_grid(&d, &a, text, k, &f);
+    ask_close(&a);
+  }
+  print_census("model", MODEL_NAMES, by_model, MODELS);
+  print_census("rays", BUNDLE_NAMES, by_bundle, BUNDLES);
+  print_census("place", FRAME_NAMES, by_frame, FRAMES);
+  const char *names[3] = {"", "", ""};
+  for (size_t i = 0; i < body_count; i++) {
+    names[i] = bodies[i]->name;
+  }
+  print_census("body", names, by_isa, body_count);
+  if (model_count > 2000) {
+    for (int m = 0; m < MODELS; m++) {
+      print_message("%-14s", MODEL_NAMES[m]);
+      for (int b = 0; b < BUNDLES; b++) {
+        print_message(" %5.1f", table[m][b].lanes ? 100 * (double)table[m][b].unsure / (double)table[m][b].lanes : 0);
+      }
+      print_message("\n");
+    }
+  }
+  assert_int_equal(failures, 0);
+  for (int i = 0; i < MODELS; i++) {
+    assert_true(by_model[i].found > 0 && by_model[i].leaving > 0);
+  }
+}
+
+int main(int words, char **word) {
+  model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
+  first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
+  find_bodies();
+  const struct CMUnitTest tests[] = {cmocka_unit_test(random_models)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

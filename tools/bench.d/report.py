@@ -1,0 +1,279 @@
+"""The page docs/benchmarks.md and its plots, from the CSV files of run.py."""
+import csv
+import math
+import os
+import re
+import subprocess
+
+COLORS = ['#c0392b', '#e67e22', '#d4ac0d', '#7d6608', '#2471a3', '#1e8449', '#145a32', '#7d3c98', '#34495e', '#17a589']
+
+
+def read(results, name):
+    path = os.path.join(results, name + '.csv')
+    if not os.path.exists(path):
+        return []
+    with open(path, newline='') as f:
+        return list(csv.DictReader(f))
+
+
+def number(text):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def short(x, digits=3):
+    """Three significant digits, plainly."""
+    if x != x:
+        return '-'
+    if x == 0:
+        return '0'
+    if abs(x) >= 1e5 or abs(x) < 1e-3:
+        return ('%.*g' % (max(1, digits - 1), x)).replace('e+0', 'e').replace('e+', 'e').replace('e-0', 'e-')
+    return '%.*f' % (max(0, digits - 1 - math.floor(math.log10(abs(x)))), x)
+
+
+def table(head, rows):
+    out = ['| ' + ' | '.join(head) + ' |', '|' + ' --- |' * len(head)]
+    return '\n'.join(out + ['| ' + ' | '.join(map(str, r)) + ' |' for r in rows]) + '\n'
+
+
+def unique(rows, key):
+    return list(dict.fromkeys(r[key] for r in rows))
+
+
+# --- plots -----------------------------------------------------------------------------------------------------------
+
+def plot(folder, name, title, x, y, series, settings=''):
+    """series: (label, [(x, y)], style) with style 'points' or 'linespoints'."""
+    series = [(label, [(a, b) for a, b in points if a == a and b == b], style) for label, points, style in series]
+    series = [s for s in series if s[1]]
+    if not series:
+        return None
+    os.makedirs(folder, exist_ok=True)
+    path = os.path.join(folder, name + '.svg')
+    script = ['set terminal svg size 760,480 font "sans-serif,13" background "white"', 'set output "%s"' % path, 'set title "%s"' % title, 'set xlabel "%s"' % x,
+              'set ylabel "%s"' % y, 'set grid lc rgb "#dddddd"', 'set key outside right top', 'set border lc rgb "#666666"', settings]
+    parts = ['"-" with %s title "%s" lc rgb "%s" pt 7 ps 0.55 lw 1.6' % (style, label, COLORS[i % len(COLORS)])
+             for i, (label, _, style) in enumerate(series)]
+    script.append('plot ' + ', '.join(parts))
+    for _, points, _ in series:
+        script += ['%g %g' % p for p in points] + ['e']
+    subprocess.run(['gnuplot'], input='\n'.join(script) + '\n', text=True, check=True, stderr=subprocess.DEVNULL)
+    with open(path) as f: # fewer bytes: comments and empty lines say nothing
+        text = f.read()
+    with open(path, 'w') as f:
+        f.write('\n'.join(line for line in re.sub(r'<!--.*?-->', '', text, flags=re.S).split('\n') if line.strip()) + '\n')
+    return path
+
+
+def shown(path, page):
+    return '![](%s)\n' % os.path.relpath(path, os.path.dirname(page)) if path else ''
+
+
+# --- parts of the page -----------------------------------------------------------------------------------------------
+
+def solvers(results, plots, page):
+    rows = read(results, 'solvers')
+    if not rows:
+        return ''
+    families, ways = unique(rows, 'family'), unique(rows, 'way')
+    at = {(r['family'], r['way']): r for r in rows}
+    floor = 0.05 # ulps: exact answers have a place on a logarithmic axis
+    path = plot(plots, 'solvers', 'One quadric along one line: time against error (a point a family)', 'ns a solve', 'median error, ulps',
+                [(w, [(number(at[f, w]['ns']), max(floor, number(at[f, w]['median_ulps']))) for f in families], 'points') for w in ways],
+                'set logscale xy\nset format y "10^{%L}"\nset yrange [0.03:*]')
+
+    def cell(r):
+        text = short(number(r['median_ulps']))
+        wrong, orders = number(r['wrong_counts_per_million']), number(r['wrong_orders_per_million'])
+        notes = (['%s counts' % short(wrong)] if wrong > 0 else []) + (['%s orders' % short(orders)] if orders > 0 else [])
+        return text + (' (%s)' % ', '.join(notes) if notes else '')
+
+    text = '## Solvers\n\nThe roots of one quadric along one line, scalar code, six kinds of quadrics, %s cases a family. The truth is taken in rationals.\n' % rows[0]['cases']
+    text += 'An order is that of the first roots of a solid and of its copy, moved along the line by 2^-20 to 2^-50 of the distance.\n\n'
+    text += shown(path, page) + '\nMedian error of a root in ulps, where the count of roots was right (in brackets: wrong counts of roots and wrong orders of two roots, per million).\n\n'
+    text += table(['family'] + ways, [[f] + [cell(at[f, w]) for w in ways] for f in families])
+    text += '\nLargest error in ulps.\n\n' + table(['family'] + ways, [[f] + [short(number(at[f, w]['largest_ulps'])) for w in ways] for f in families])
+    text += '\nNanoseconds a solve (last column: the share of solves that quoin took in exact arithmetic).\n\n'
+    ours = 'quoin, rounded'
+    text += table(['family'] + ways + ['exact share'], [[f] + [short(number(at[f, w]['ns'])) for w in ways] + [short(number(at[f, ours]['exact_share']))] for f in families])
+    text += '\n"quoin, decided" is what decides: counts and orders are exact, t is near. "quoin, rounded" also rounds every root to the nearest double.\n'
+    return text
+
+
+def rate_cell(r):
+    if r is None:
+        return ''
+    rate = number(r['mrays'])
+    wrong = number(r['oracle_wrong'] or 0) + number(r['wrong'] or 0)
+    judged = number(r['oracle_judged'] or 0) + number(r['judged'] or 0)
+    if rate != rate:
+        return 'no answer in time' if r['path'] == 'povray' else 'WRONG %d of %d' % (wrong, judged)
+    if wrong:
+        return '%s wrong a million' % short(1e6 * wrong / judged)
+    return short(rate)
+
+
+def scenes(results, plots, page):
+    rows = read(results, 'scenes')
+    if not rows:
+        return ''
+    names = unique(rows, 'scene')
+    at = {(r['scene'], r['path']): r for r in rows}
+    paths = [p for p in unique(rows, 'path')]
+    ours = [p for p in paths if not p.startswith('embree') and p != 'povray']
+    peers = [p for p in paths if p not in ours]
+    text = '## Scenes\n\nMillion rays (or points) a second on one core, from camera to hit record, median of the rounds; the programs took turns. '
+    text += 'The paths: `single` one call a ray, `rows` and `tiles` arrays in blocks of 64 x 64 pixels, `grid` the grid call (`grid-t`: with t rounded correctly), '
+    text += '`intervals` all stretches of a ray, `intervals-exact` the same with the filter off, `shadow` from what the camera sees to a light, `random` incoherent rays. '
+    text += 'Every path was judged first: against the other paths, byte by byte, and against an oracle that shares no code with the library (640 bits, every leaf). '
+    text += 'A path with a wrong answer would show no rate.\n\n'
+    text += table(['scene'] + ours, [[n] + [rate_cell(at.get((n, p))) for p in ours] for n in names])
+    judged = sum(number(r['judged'] or 0) for r in rows if r['path'] in ours)
+    oracle = sum(number(r['oracle_judged'] or 0) for r in rows if r['path'] in ours)
+    wrong = sum(number(r['wrong'] or 0) + number(r['oracle_wrong'] or 0) for r in rows if r['path'] in ours)
+    text += '\nWrong answers of quoin: %d of %d compared between paths and %d judged by the oracle.\n' % (wrong, judged, oracle)
+    if peers:
+        text += '\n### Beside other programs\n\nEmbree 3 (single precision, sphere points, packets from the same grid, blocks and order) and POV-Ray 3.7 (its own '
+        text += '"Trace Time", one thread, without start, parsing and output; a white picture without shading). In brackets: their wrong first hits a million, and how many were judged. '
+        text += 'A hit counts as wrong when there is none, or the reverse, or when it lies elsewhere by more than a thousandth (of the smallest radius for Embree, of the depth of the scene for POV-Ray). '
+        text += 'Ratios are of quoin\'s `grid` and `grid-t`.\n\n'
+
+        def peer(n, p):
+            r = at.get((n, p))
+            if not r:
+                return ''
+            judged = number(r['oracle_judged'] or 0)
+            rate = number(r['mrays'])
+            return 'no answer in time' if rate != rate else '%s (%s of %d)' % (short(rate), short(1e6 * number(r['oracle_wrong']) / judged) if judged else '?', judged)
+
+        def ratio(n, mine, theirs):
+            best = max([number(at[n, p]['mrays']) for p in theirs if (n, p) in at and number(at[n, p]['mrays']) > 0], default=math.nan)
+            return short(number(at[n, mine]['mrays']) / best) if (n, mine) in at else ''
+
+        body = []
+        packets = ['embree-packet16', 'embree-packet8']
+        for n in names:
+            if any((n, p) in at for p in peers):
+                body.append([n] + [peer(n, p) for p in peers] + [ratio(n, 'grid', packets), ratio(n, 'grid-t', packets), ratio(n, 'grid', ['povray']), ratio(n, 'grid-t', ['povray'])])
+        text += table(['scene'] + peers + ['grid / Embree packets', 'grid-t / Embree packets', 'grid / POV-Ray', 'grid-t / POV-Ray'], body)
+    text += '\n### Counters\n\nA ray (or point): nodes visited, leaves solved, decisions certified by doubles; and a million rays: signs and orders taken exactly, rays handed to the exact path, roundings taken exactly. '
+    text += 'A node or leaf that a packet of 64 meets counts once.\n\n'
+    million = lambda r, k: short(1e6 * number(r[k]))
+    body = [[n, p, short(number(r['nodes'])), short(number(r['leaves'])), short(number(r['sure'])), million(r, 'exact_signs'), million(r, 'exact_orders'),
+             million(r, 'exact_rays'), million(r, 'exact_roundings')]
+            for n in names for p in ('grid', 'grid-t', 'intervals', 'shadow', 'random', 'points') for r in [at.get((n, p))] if r and r['nodes']]
+    text += table(['scene', 'path', 'nodes', 'leaves', 'sure', 'signs', 'orders', 'exact rays', 'roundings'], body)
+    return text
+
+
+def pictures(results, plots, page):
+    rows = read(results, 'pictures')
+    commands = read(results, 'commands')
+    text = ''
+    if rows:
+        text += '## Pictures\n\nTime (one thread, without reading and writing) against the error of the picture: the root of the mean square difference of sRGB values (0 to 1) to a reference '
+        text += 'with 32 x 32 samples in every pixel (16 x 16 in a quick run). Both programs draw the same white solid, sun and shadows: without antialiasing their pictures have the same error.\n\n'
+        for n in unique(rows, 'scene'):
+            mine = [r for r in rows if r['scene'] == n]
+            point = lambda r: (number(r['seconds']), number(r['rms']))
+            series = [('quoin', [point(r) for r in mine if r['program'] == 'quoin'], 'linespoints')]
+            series += [('POV-Ray, fixed', [point(r) for r in mine if r['program'] == 'POV-Ray' and 'recursive' not in r['setting']], 'linespoints')]
+            series += [('POV-Ray, recursive', [point(r) for r in mine if r['program'] == 'POV-Ray' and 'recursive' in r['setting']], 'linespoints')]
+            text += shown(plot(plots, 'pictures-' + n, n + ': time against error of the picture', 'seconds', 'rms error', series, 'set logscale xy'), page) + '\n'
+            text += table(['scene', 'program', 'setting', 'seconds', 'rms error'],
+                          [[n, r['program'], r['setting'].replace('_', ' '), short(number(r['seconds'])), short(number(r['rms']))] for r in mine]) + '\n'
+    if commands:
+        text += 'Whole commands, from start to written PNG: `part50` at 800 x 600 with shadows and antialiasing (16 samples where neighbours differ), all cores.\n\n'
+        text += table(['program', 'threads', 'seconds'], [[r['program'], r['threads'], short(number(r['seconds']))] for r in commands])
+    return text
+
+
+def growth(results, plots, page):
+    rows, build, threads = read(results, 'growth'), read(results, 'build'), read(results, 'threads')
+    text = ''
+    if rows:
+        family = lambda name: name.split('-')[0]
+        families = list(dict.fromkeys(family(r['scene']) for r in rows))
+        rate = lambda r: 1e3 / number(r['mrays'])
+        text += '## Growth\n\nThe cost of a ray against the number of leaves: a union of spheres, a plate minus holes, a balanced random tree, a Menger sponge (512 x 512 rays).\n\n'
+        # leaves the model has, not those that the compiled scene keeps
+        drawn = lambda name: 1 + 3 * (8**int(name.split('-')[1]) - 1) // 7 if name.startswith('menger') else int(name.split('-')[1])
+        for p, title in (('grid', 'camera rays in packets'), ('single', 'camera rays one by one'), ('random', 'incoherent rays')):
+            series = [(f, [(drawn(r['scene']), rate(r)) for r in rows if family(r['scene']) == f and r['path'] == p], 'linespoints') for f in families]
+            text += shown(plot(plots, 'growth-' + p, 'Growth: ' + title, 'leaves', 'ns a ray', series, 'set logscale x\nset yrange [0:*]'), page)
+        paths = unique(rows, 'path')
+        text += '\nNanoseconds a ray (or point).\n\n'
+        by = {(r['scene'], r['path']): r for r in rows}
+        text += table(['scene', 'leaves kept'] + paths, [[n, by[n, paths[0]]['leaves_kept']] + [short(rate(by[n, p])) if (n, p) in by else '' for p in paths] for n in unique(rows, 'scene')])
+        if build:
+            series = [('%s, %s thread%s' % (f, t, '' if t == '1' else 's'), [(drawn(r['scene']), number(r['compile_s'])) for r in build if family(r['scene']) == f and r['build_threads'] == t], 'linespoints')
+                      for f in families for t in unique(build, 'build_threads')]
+            text += '\n' + shown(plot(plots, 'build', 'Building a scene', 'leaves', 'seconds', series, 'set logscale xy'), page)
+            text += '\nBuilding: seconds to read the text and to compile it, and the bytes the scene takes.\n\n'
+            text += table(['scene', 'threads', 'leaves kept', 'read, s', 'compile, s', 'bytes a leaf'],
+                          [[r['scene'], r['build_threads'], r['leaves'], short(number(r['read_s'])), short(number(r['compile_s'])), short(number(r['bytes']) / max(1, number(r['leaves'])))] for r in build])
+    if threads:
+        names, paths = unique(threads, 'scene'), unique(threads, 'path')
+        by = {(r['scene'], r['path'], int(r['threads'])): number(r['mrays']) for r in threads}
+        counts = sorted({int(r['threads']) for r in threads})
+        series = [('%s, %s' % (n, p), [(t, by.get((n, p, t), math.nan) / by.get((n, p, 1), math.nan)) for t in counts], 'linespoints') for n in names for p in paths]
+        text += '\n## Threads\n\n' + shown(plot(plots, 'threads', 'Speed-up by threads', 'threads', 'times one thread', series, 'set xtics 1\nset yrange [0:*]'), page)
+        text += '\nMillion rays a second.\n\n' + table(['scene', 'path'] + ['%d' % t for t in counts], [[n, p] + [short(by.get((n, p, t), math.nan)) for t in counts] for n in names for p in paths])
+    return text
+
+
+def goals(results):
+    """The goals that these measurements can judge."""
+    at = {(r['scene'], r['path']): number(r['mrays']) for r in read(results, 'scenes')}
+    get = lambda n, p: at.get((n, p), math.nan)
+    embree = lambda n: max((get(n, 'embree-' + p) for p in ('packet16', 'packet8') if get(n, 'embree-' + p) > 0), default=math.nan)
+    rows = []
+
+    def goal(what, reached, wanted):
+        if reached == reached:
+            rows.append([what, short(reached), short(wanted), 'yes' if reached >= wanted else 'no'])
+
+    for n, times in (('sphere1', 10), ('spheres10k', 6), ('spheres1M', 4)):
+        goal('%s: `grid`, times Embree\'s packets' % n, get(n, 'grid') / embree(n), times)
+    for n, times in (('sphere1', 40), ('spheres10k', 40), ('tree1024', 1000)):
+        goal('%s: `grid`, times POV-Ray' % n, get(n, 'grid') / get(n, 'povray'), times)
+    for n in unique(read(results, 'scenes'), 'scene'):
+        goal('%s: all intervals, share of the first-hit rate' % n, get(n, 'intervals') / get(n, 'grid-t'), 0.5)
+        goal('%s: shadow rays, share of camera rays' % n, get(n, 'shadow') / get(n, 'grid'), 0.25)
+        goal('%s: incoherent rays as arrays, times the single path' % n, get(n, 'random') / get(n, 'random-single'), 1)
+    goal('menger4: all intervals, million a second', get('menger4', 'intervals'), 10)
+    goal('spheres10k: points, million a second', get('spheres10k', 'points'), 20)
+    build = [r for r in read(results, 'build') if r['scene'] == 'spheres-1000000' and r['build_threads'] != '1']
+    if build:
+        goal('1,000,000 spheres: compiled, times a second', 1 / number(build[0]['compile_s']), 1)
+    whole = {r['program']: number(r['seconds']) for r in read(results, 'commands')}
+    if 'quoin render' in whole:
+        goal('part50 as a whole command: times 40 ms', 0.04 / whole['quoin render'], 1)
+        goal('part50 as a whole command: times faster than POV-Ray', whole.get('povray', math.nan) / whole['quoin render'], 10)
+    return '## Goals\n\n' + table(['what', 'reached', 'goal', 'met'], rows) if rows else ''
+
+
+def machine():
+    name = 'unknown'
+    try:
+        with open('/proc/cpuinfo') as f:
+            text = f.read()
+        name = re.search(r'model name\s*:\s*(.*)', text).group(1)
+        flags = re.search(r'flags\s*:\s*(.*)', text).group(1).split()
+        name += ', ' + ('AVX-512' if 'avx512f' in flags else 'AVX2' if 'avx2' in flags else 'SSE2')
+    except (OSError, AttributeError):
+        pass
+    return '%s, %d cores' % (name, os.cpu_count() or 1)
+
+
+def write(results, page, command):
+    plots = os.path.join(os.path.dirname(page), 'benchmarks')
+    text = '# Benchmarks\n\nWritten by `%s`; do not edit. Machine: %s. What carries from one machine to another are the ratios of one run.\n\n' % (command, machine())
+    parts = [goals(results), scenes(results, plots, page), solvers(results, plots, page), pictures(results, plots, page), growth(results, plots, page)]
+    text += '\n'.join(p for p in parts if p)
+    os.makedirs(os.path.dirname(page), exist_ok=True)
+    with open(page, 'w') as f:
+        f.write(text)
