@@ -48,6 +48,22 @@
 #define QN_SUPER_NARROW 0x1p-46
 #define QN_SUPER_FINE 0x1p-44
 #define QN_SUPER_MARGIN 0x1p-30 /* the stretch is widened by this share at either end */
+/* The superquadric's f = rho^q + z^q along a line as computed (src/shape/superquadric_line.c), s = e/n where rho^q takes a second power, else 0:
+     |f^ - f| <= (QN_SUPER_VALUE(s, q) + QN_SUPER_BEYOND max(f^ - 1, 0)) f^ + QN_SUPER_VALUE_0
+   which also holds a rounding of each coordinate, relatively u; in long doubles of 64 bits and more, QN_SUPER_FINER times that. Each
+   addend of df/dt is within QN_SUPER_RATE of itself. A tangent's step is shortened by QN_SUPER_TANGENT of itself.
+   QN_SUPER_LEAST, QN_SUPER_MOST: the range of exponents for that (0 too for e); QN_SUPER_SHORT, QN_SUPER_LONG: |O_i| and |D_i| that are not 0
+   are at least the one, |D_i| at most the other. */
+#define QN_SUPER_VALUE(s, q) ((6 + 12 * (s) + 3 * (q)) * QN_U)
+#define QN_SUPER_VALUE_0 (6 * QN_U)
+#define QN_SUPER_BEYOND (8 * QN_U)
+#define QN_SUPER_FINER 0x1p-10
+#define QN_SUPER_RATE 0x1p-38
+#define QN_SUPER_TANGENT (32 * QN_U)
+#define QN_SUPER_LEAST 0x1p-6
+#define QN_SUPER_MOST 0x1p+3
+#define QN_SUPER_SHORT 0x1p-200
+#define QN_SUPER_LONG 0x1p+200
 /* Bits of MPFR along a ray: a sign is given when |G - 1| passes the bound above with 2^-QN_SUPER_BITS for u. */
 #define QN_SUPER_BITS 192
 
@@ -92,11 +108,25 @@
 #define QN_SLOPE_E (12 * QN_U)
 #define QN_DD_LARGEST 0x1p+100
 
-/* Wide code (src/wide/solve.h). QN_WIDE_ROUND >= 14: a formula of wide code, its inputs with relative error up to 6u, is within
+/* Wide code (src/wide/). QN_WIDE_ROUND >= 14: a formula of wide code, its inputs with relative error up to 6u, is within
    QN_WIDE_ROUND u times the sum of its terms' magnitudes. QN_WIDE_SHY: discriminants under so many times their bound are not
-   solved there; it trades rays given up against the error of the roots that are kept, and no answer depends on it. */
+   solved there; it trades rays given up against the error of the roots that are kept, and no answer depends on it.
+   QN_WIDE_STEEP, QN_WIDE_FLAT: a slope or square term under that share of its terms' magnitudes is not divided by; each is 2^24 times
+   its relative error and more, so that QN_WIDE_SLACK covers the second order and the roundings of every bound.
+   QN_WIDE_SLOW, QN_WIDE_MOVE: X = O^ + t0 D^ is within QN_WIDE_MOVE QN_WIDE_ROUND u (Omega + R) of O + t0 D, |X| <= R, while
+   |D|^2 > QN_WIDE_SLOW times its packet's bound: QN_WIDE_MOVE QN_WIDE_ROUND >= 6.1 + 5.2 / sqrt(QN_WIDE_SLOW).
+   QN_WIDE_LARGEST: coordinates, components and pieces' numbers beyond it, or (not coordinates) under its inverse, are left to others;
+   then QN_WIDE_TINY exceeds any loss by underflow. QN_WIDE_FLOAT >= 3 2^-24: relative widening of a slab's 1/d. */
 #define QN_WIDE_ROUND 32
 #define QN_WIDE_SHY 0x1p14
+#define QN_WIDE_STEEP 0x1p-24
+#define QN_WIDE_FLAT 0x1p-20
+#define QN_WIDE_SLACK (1 + 0x1p-10)
+#define QN_WIDE_SLOW 0x1p-10
+#define QN_WIDE_MOVE 8
+#define QN_WIDE_LARGEST 0x1p+100
+#define QN_WIDE_TINY 0x1p-400
+#define QN_WIDE_FLOAT 0x1p-20
 
 /* Rounding places in wide code (src/wide/newton.h, scene/rounding.h). Legend: y = o - c + t d with c the surface's pivot; over the
    coordinates that occur, S = sum |o_j - c_j| + |t d_j|, D = sum |d_j|; K2, K1, K0 the surface's SQUARE, LINEAR and CONSTANT; a = q2(d).

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 QUOIN_API quoin_read_options quoin_read_options_default(void) {
   return (quoin_read_options){.facets = QUOIN_FACETS_AUTO, .max_errors = 100};
@@ -127,6 +128,10 @@ static quoin_status slurp(qn_mem *mem, const char *path, char **text, size_t *le
   quoin_status status = QUOIN_OK;
   if (!f) {
     return QUOIN_E_IO;
+  }
+  struct stat about;
+  if (fstat(fileno(f), &about) == 0 && S_ISREG(about.st_mode) && about.st_size > (off_t)QN_MAX_TEXT) {
+    status = QUOIN_E_LIMIT; /* known without reading it */
   }
   errno = 0;
   while (status == QUOIN_OK) {

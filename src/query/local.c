@@ -36,7 +36,8 @@ static int invert(const double m[12], double out[12]) {
   return 1;
 }
 
-static void make(quoin_work *work, uint32_t leaf, qn_local *local) {
+/* 0 when memory is refused; then the place holds no leaf. */
+static int make(quoin_work *work, uint32_t leaf, qn_local *local) {
   const quoin_model *model = work->scene->model;
   const qn_node *node = &model->nodes[work->scene->leaves[leaf].node];
   qn_ctx *ctx = qn_scratch_ctx(work->scratch);
@@ -55,22 +56,27 @@ static void make(quoin_work *work, uint32_t leaf, qn_local *local) {
     }
   }
   qn_arena_release(&ctx->arena, mark);
-  *local = (qn_local){.leaf = leaf};
+  *local = (qn_local){.leaf = QN_NO_LOCAL, .args = local->args, .arg_capacity = local->arg_capacity};
   local->singular = !invert(map, local->inverse);
   local->placed = (node->flags & QN_NODE_PLACED) != 0;
   size_t args = node->numbers - (local->placed ? 6u : 0u);
   for (size_t i = 0; local->placed && i < 6; i++) {
     local->placement[i] = qn_num_to_double(model->numbers[node->number0 + args + i]);
   }
-  local->arg_count = args < 16 ? args : 16; /* longer lists are polyhedra, whose (u, v) does not read them */
+  local->arg_count = args;
+  if (!qn_grow(work->mem, &local->args, &local->arg_capacity, args)) {
+    return 0;
+  }
   for (size_t i = 0; i < local->arg_count; i++) {
     local->args[i] = qn_num_to_double(model->numbers[node->number0 + i]);
   }
+  local->leaf = leaf;
+  return 1;
 }
 
 const qn_local *qn_query_local(quoin_work *work, uint32_t leaf) {
   if (!work->locals) {
-    work->locals = qn_alloc(work->mem, QN_LOCALS * sizeof *work->locals);
+    work->locals = qn_alloc_zeroed(work->mem, QN_LOCALS * sizeof *work->locals);
     if (!work->locals) {
       return NULL;
     }
@@ -79,8 +85,12 @@ const qn_local *qn_query_local(quoin_work *work, uint32_t leaf) {
     }
   }
   qn_local *local = &work->locals[leaf % QN_LOCALS];
-  if (local->leaf != leaf) {
-    make(work, leaf, local);
+  return local->leaf == leaf || make(work, leaf, local) ? local : NULL;
+}
+
+void qn_query_locals_free(quoin_work *work) {
+  for (int i = 0; work->locals && i < QN_LOCALS; i++) {
+    qn_free(work->mem, work->locals[i].args, work->locals[i].arg_capacity * sizeof *work->locals[i].args);
   }
-  return local;
+  qn_free(work->mem, work->locals, QN_LOCALS * sizeof *work->locals);
 }

@@ -38,7 +38,7 @@ void quoin_work_free(quoin_work *work) {
   qn_free(mem, work->inside, work->inside_capacity * sizeof *work->inside);
   qn_free(mem, work->boundary, work->boundary_capacity * sizeof *work->boundary);
   qn_free(mem, work->contacts, work->contact_capacity * sizeof *work->contacts);
-  qn_free(mem, work->locals, QN_LOCALS * sizeof *work->locals);
+  qn_query_locals_free(work);
   qn_free(mem, work, sizeof *work);
 }
 

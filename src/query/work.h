@@ -7,13 +7,14 @@
 
 enum { QN_LOCALS = 64 }; /* a power of two */
 
-/* A leaf's own coordinates, in doubles: local = inverse . (x, 1); its primitive's arguments. */
+/* A leaf's own coordinates, in doubles: local = inverse . (x, 1); its primitive's arguments (a polyhedron has thousands). */
 typedef struct qn_local {
   uint32_t leaf;
   int singular;
   double inverse[12];
-  double args[16], placement[6];
-  size_t arg_count;
+  double placement[6];
+  double *args;
+  size_t arg_count, arg_capacity;
   int placed;
 } qn_local;
 #define QN_NO_LOCAL UINT32_MAX
@@ -62,5 +63,6 @@ quoin_status qn_query_near(quoin_work *work, qn_query_point *point, int all);
 
 /* The leaf's coordinates; null when memory is refused. */
 const qn_local *qn_query_local(quoin_work *work, uint32_t leaf);
+void qn_query_locals_free(quoin_work *work);
 
 #endif

@@ -105,16 +105,20 @@ void qn_weave_coplanar(qn_scratch *s, const qn_bound *from, const qn_bound *to) 
   quoin_side side = s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
   for (size_t i = 0, end; i < s->event_count && qn_scratch_status(s) == QUOIN_OK; i = end) {
     end = qn_weave_group(s, i);
+    /* The group's changes are made one by one, so that the end is named after the leaf at whose change the side last changed, as
+       where the line runs in no surface. The next place: its group is put in order when its turn comes. */
+    const qn_bound *next = end < s->event_count ? &s->events[end].at : &end_of_line.at;
+    const qn_event *here = &s->events[i];
+    quoin_side now = side;
     for (size_t k = i; k < end; k++) {
       toggle(s, &st, &s->events[k]);
+      quoin_side then = side_of(s, &st, &s->events[i].at, next, from, to);
+      here = then != now ? &s->events[k] : here;
+      now = then;
     }
-    size_t after = end; /* the next place: its group is put in order when its turn comes */
-    const qn_bound *next = after < s->event_count ? &s->events[after].at : &end_of_line.at;
-    quoin_side now = side_of(s, &st, &s->events[i].at, next, from, to);
     if (now == side) {
       continue;
     }
-    const qn_event *here = &s->events[end - 1];
     if (side != QUOIN_OUTSIDE) {
       qn_weave_add(s, side == QUOIN_BOUNDARY, &open, here, from, to);
     }

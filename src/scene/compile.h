@@ -18,6 +18,7 @@ typedef struct qn_composed {
   uint8_t aligned;    /* every axis goes to an axis, and `exact` is there in small numbers: planes have keys */
   uint8_t shift_only; /* A is the identity */
   uint8_t tame;       /* every non-zero entry's size is within 2^-400 and 2^400: boxes may be taken in doubles */
+  uint8_t settled;    /* map, shadow and tame are made; else only `exact`, of a translation, is */
 } qn_composed;
 
 typedef struct qn_maps {
@@ -35,6 +36,8 @@ QN_NODISCARD quoin_status qn_maps_init(qn_maps *maps, const quoin_model *model, 
 void qn_maps_free(qn_maps *maps, qn_mem *mem);
 QN_NODISCARD quoin_status qn_maps_push(qn_maps *maps, qn_mem *mem, uint32_t node);
 void qn_maps_pop(qn_maps *maps);
+/* Makes the top's map, shadow and tame, which a translation leaves for later. */
+void qn_maps_settle(qn_maps *maps);
 /* The exact entries of the top. */
 QN_NODISCARD quoin_status qn_maps_exact(qn_maps *maps, const qn_num **map);
 /* The inverse of the top's A: 1, or 0 when A is singular, or -1 when balls cannot tell. */
@@ -64,34 +67,104 @@ typedef struct qn_local {
   int tame;                /* arguments are of usual size: their box may be taken in doubles */
 } qn_local;
 
+/* --- tree.c: the solid tree met once, in order ------------------------------------------------------------------- */
+
+/* A leaf as the walk met it. */
+typedef struct qn_visit {
+  uint32_t node, term, material;
+  uint32_t name; /* of the name(...) around it, an offset in the scene's texts; QN_NO_NAME: it is called after its place */
+} qn_visit;
+#define QN_NO_NAME UINT32_MAX
+
+/* A place x_axis = at where an aligned plane lies. Numbers are canonical, so equal places have equal bytes. */
+typedef struct qn_place { qn_num at; uint32_t axis, hash; } qn_place;
+
+/* Leaves that one thread makes in one go, and what it made of them, numbered from 0 in each batch. Which leaves are in a batch
+   depends on the model alone, so nothing depends on the number of threads. */
+typedef struct qn_batch {
+  size_t visit0, visits;
+  qn_half *halves; size_t half_count, half_capacity;
+  qn_plane_shadow *planes; size_t plane_count, plane_capacity;
+  qn_quadric_shadow *quadrics; size_t quadric_count, quadric_capacity;
+  uint32_t *keys; size_t key_capacity; /* by half-space: of an aligned plane its place + 1, equal for equal planes; else 0 */
+  qn_place *places; size_t place_count, place_capacity;
+  uint32_t *global;                    /* by place: its key in the scene */
+  size_t leaves, kept_halves, kept_planes, kept_quadrics, text; /* what the scene keeps of them; bytes of their names */
+} qn_batch;
+
 typedef struct qn_building {
   quoin_model *model;
   quoin_scene *scene;
   qn_mem *mem;
-  qn_maps maps;
-  qn_local local;
-  size_t leaf_capacity, half_capacity, plane_capacity, quadric_capacity, material_capacity, name_capacity;
-  uint32_t *keys; /* by half-space: an aligned plane's key, equal keys for equal planes; 0 none */
-  size_t key_capacity;
-  struct qn_key_table *key_table;
+  unsigned threads;
+  const quoin_progress *progress; /* may be null */
+  qn_visit *visits; size_t visit_count, visit_room;
+  qn_batch *batches; size_t batch_count, batch_capacity;
+  qn_term *terms; size_t term_count, term_capacity;
+  size_t leaf_room, material_capacity, name_capacity;
   struct qn_material_table *material_table;
-  qn_term *terms;
-  size_t term_count, term_capacity;
+  uint32_t *keys; size_t key_room;   /* by half-space of the scene: 0, or a number below key_count, equal for equal planes */
+  uint32_t key_count;
+  uint8_t *kinds; size_t kind_room;  /* by leaf: qn_piece_kind */
 } qn_building;
 
-/* Makes the local half-spaces of a leaf in b->local. */
-QN_NODISCARD quoin_status qn_local_make(qn_building *b, uint32_t node);
-/* The box of the leaf whose half-spaces are in b->local, under the top map; infinite where it is not bounded or not certain.
+/* Lists the leaves and the terms, cuts the leaves into batches, makes names and materials. */
+QN_NODISCARD quoin_status qn_tree_walk(qn_building *b);
+/* The child to visit at or after `child`, QN_NO_NODE when there is none. */
+uint32_t qn_present(const quoin_model *model, uint32_t child);
+int qn_is_transform(const qn_node *node);
+
+/* Progress of a part of the work, `done` of the whole: QUOIN_E_CANCELLED when it is to stop. */
+QN_NODISCARD quoin_status qn_tell_progress(const quoin_progress *progress, double done);
+/* qn_parallel whose progress runs from `from` to `to`. */
+QN_NODISCARD quoin_status qn_parallel_part(qn_building *b, size_t n, quoin_status (*body)(void *user, unsigned thread, size_t i), void *user,
+                                            double from, double to);
+
+/* --- leaves.c, shadow.c, quick.c: leaves made of their nodes; the door of rounding -------------------------------- */
+
+typedef struct qn_key_table {
+  uint32_t *slots; /* place + 1, 0 empty; a power of two of them, at most half of them used */
+  size_t slot_count;
+} qn_key_table;
+
+/* One thread's tools. */
+typedef struct qn_maker {
+  quoin_model *model;
+  qn_mem *mem;
+  qn_maps maps;
+  qn_local local;
+  qn_key_table keys; /* of the places of the batch in work */
+  qn_batch *batch;
+} qn_maker;
+
+/* Makes the scene's leaves, one for each visit, and the batches' half-spaces; terms of what is nothing or everything become
+   constants. */
+QN_NODISCARD quoin_status qn_leaves_make(qn_building *b);
+void qn_batches_free(qn_building *b);
+
+/* Makes the local half-spaces of a leaf in m->local. */
+QN_NODISCARD quoin_status qn_local_make(qn_maker *m, uint32_t node);
+/* The box of the leaf whose half-spaces are in m->local, under the top map; infinite where it is not bounded or not certain.
    Returns whether it is bounded. */
-int qn_leaf_box(const qn_building *b, double min[3], double max[3]);
-/* Adds the leaf's half-spaces and shadows to the scene, and their keys. *result: QN_FORM_EMPTY under a singular map. */
-QN_NODISCARD quoin_status qn_leaf_add(qn_building *b, qn_leaf *leaf, qn_form_result *result);
+int qn_leaf_box(const qn_maker *m, double min[3], double max[3]);
+/* Adds the leaf's half-spaces, shadows and keys to the batch. *result: QN_FORM_EMPTY under a singular map. */
+QN_NODISCARD quoin_status qn_leaf_add(qn_maker *m, qn_leaf *leaf, qn_form_result *result);
+/* All of that for a leaf of the commonest kind, a sphere that is only shifted, of plain decimals. 0: it is none. */
+int qn_leaf_quick(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_result *result, quoin_status *status);
+/* Room for one more half-space of the batch, and one more quadric. */
+QN_NODISCARD int qn_batch_room(qn_maker *m);
 
 /* --- keys.c: aligned planes have names that can be compared without arithmetic ------------------------------------ */
 
-/* The key of the plane x_axis = at; 0 when `at` is not a small number. UINT32_MAX: memory was refused. */
-uint32_t qn_key_of(qn_building *b, int axis, qn_num at);
-void qn_keys_free(qn_building *b);
+/* The key in the batch of the plane x_axis = at; 0 when `at` is not a small number. UINT32_MAX: memory was refused. */
+uint32_t qn_key_of(qn_maker *m, int axis, qn_num at);
+/* Makes the batches' keys into keys of the scene: batch->global, b->key_count. */
+QN_NODISCARD quoin_status qn_keys_join(qn_building *b);
+
+/* --- pack.c ------------------------------------------------------------------------------------------------------- */
+
+/* Lays the batches one behind another in the scene, without the leaves that the program does not ask for. */
+QN_NODISCARD quoin_status qn_pack(qn_building *b);
 
 /* --- parts.c: names and materials --------------------------------------------------------------------------------- */
 
@@ -101,7 +174,10 @@ uint32_t qn_material_under(qn_building *b, uint32_t outer, const qn_material *in
 void qn_materials_free(qn_building *b);
 /* Adds a name's text; its offset, UINT32_MAX when memory is refused or the texts are too long. */
 uint32_t qn_name_add(qn_building *b, const char *text);
-uint32_t qn_name_of_leaf(qn_building *b, uint32_t node, size_t ordinal);
+/* What a leaf without a name of its own is called; bytes with the final NUL, at most QN_PLACE_NAME. */
+enum { QN_PLACE_NAME = 80 };
+size_t qn_name_of_leaf(const quoin_model *model, uint32_t node, size_t ordinal, char text[QN_PLACE_NAME]);
+size_t qn_name_length(const quoin_model *model, uint32_t node, size_t ordinal); /* those bytes */
 
 /* --- simplify.c --------------------------------------------------------------------------------------------------- */
 

@@ -1,169 +1,41 @@
 /* Equal surfaces become one (design S2, S3).
 
-   Half-spaces are taken in order. An aligned plane is known by its key. Any other, and the first of each key, looks up those
-   surfaces whose fingerprints are within reach; for each of them the exact forms decide. A new surface gets the next number.
+   Half-spaces are taken in order. An aligned plane is known by its key. Any other, and the first of each key, is a new surface when
+   its fingerprint is alone (crowd.c); else it looks up those surfaces whose fingerprints are within reach, and for each of them
+   the exact forms decide. A new surface gets the next number.
 
    Exact forms are normalised (qn_exact_surface): rational ones are equal when their integers are. When a rounding of S2 went
    into either, they are the same when their vectors c, d (space in units of the scene's size) agree: with i the place of the
    largest |c_i|, |c_j d_i - d_j c_i| < 2^-200 |c_i d_i| for all j. */
-#include "scene/compile.h"
+#include "scene/identity.h"
 
 #include "base/bounds.h"
-#include "base/limits.h"
-#include "scene/fingerprint.h"
 
 #include <math.h>
 #include <string.h>
 
 #define NONE UINT32_MAX
 
-/* The composed exact map of a node with several children, which many leaves ask for. */
-typedef struct known_map { uint32_t node; qn_num map[12]; } known_map;
+typedef struct link { uint32_t surface, next; } link;
 
 typedef struct finder {
   qn_building *b;
   qn_print_frame frame;
-  size_t surface_capacity;
-  double (*prints)[2]; /* by surface, and so are the next two */
-  size_t print_capacity;
-  uint32_t *next;      /* the next one in its chain */
-  size_t next_capacity;
-  uint32_t *keys;      /* 0: not an aligned plane in small numbers */
-  size_t key_capacity;
+  qn_crowd crowd;
+  qn_forms forms;
+  size_t surface_room;
+  link *links;         /* crowded surfaces, in chains */
+  size_t link_count, link_capacity;
   uint32_t *chains;    /* by hash of the cell; a power of two */
   size_t chain_count;
   uint32_t *by_key;    /* surface, by key */
   int8_t *key_side;    /* side of a half-space with the key whose normal's sign is + */
-  size_t key_room;
-  qn_ctx ctx;          /* forms of the leaf in work */
-  uint32_t leaf;       /* the leaf whose forms are there, or NONE */
-  qn_half_form *forms;
-  qn_ctx other;        /* forms of the surface compared with */
-  qn_ctx maps;         /* known maps */
-  known_map *known;
-  size_t known_count, known_capacity;
-  uint32_t *known_slots; /* index + 1, by hash of the node */
-  size_t known_slot_count;
-  uint32_t *path;
-  size_t path_capacity;
 } finder;
-
-/* --- exact maps, remembered where they are shared ------------------------------------------------------------------ */
-
-static size_t slot_of(uint32_t node, size_t slots) {
-  return (size_t)((uint64_t)node * 0x9E3779B97F4A7C15u >> 20) & (slots - 1);
-}
-
-static const known_map *recall(const finder *f, uint32_t node) {
-  if (f->known_slot_count == 0) {
-    return NULL;
-  }
-  for (size_t i = slot_of(node, f->known_slot_count); f->known_slots[i]; i = (i + 1) & (f->known_slot_count - 1)) {
-    if (f->known[f->known_slots[i] - 1].node == node) {
-      return &f->known[f->known_slots[i] - 1];
-    }
-  }
-  return NULL;
-}
-
-static int remember(finder *f, uint32_t node, const qn_num map[12]) {
-  qn_mem *mem = f->b->mem;
-  if (!qn_grow(mem, &f->known, &f->known_capacity, f->known_count + 1)) {
-    return 0;
-  }
-  if (2 * (f->known_count + 1) > f->known_slot_count) {
-    size_t n = f->known_slot_count ? 2 * f->known_slot_count : 64;
-    uint32_t *slots = qn_alloc_zeroed(mem, n * sizeof *slots);
-    if (!slots) {
-      return 0;
-    }
-    qn_free(mem, f->known_slots, f->known_slot_count * sizeof *slots);
-    f->known_slots = slots;
-    f->known_slot_count = n;
-    for (size_t i = 0; i < f->known_count; i++) {
-      size_t at = slot_of(f->known[i].node, n);
-      while (slots[at]) {
-        at = (at + 1) & (n - 1);
-      }
-      slots[at] = (uint32_t)i + 1;
-    }
-  }
-  known_map *k = &f->known[f->known_count++];
-  k->node = node;
-  for (int i = 0; i < 12; i++) {
-    k->map[i] = qn_num_copy(&f->maps, map[i]);
-  }
-  size_t at = slot_of(node, f->known_slot_count);
-  while (f->known_slots[at]) {
-    at = (at + 1) & (f->known_slot_count - 1);
-  }
-  f->known_slots[at] = (uint32_t)f->known_count;
-  return f->maps.failed == QUOIN_OK;
-}
-
-/* The map of the leaf's node into ctx. */
-static quoin_status map_of(finder *f, qn_ctx *ctx, uint32_t node, qn_num map[12]) {
-  const quoin_model *model = f->b->model;
-  size_t depth = 0;
-  const known_map *start = NULL;
-  for (uint32_t n = model->nodes[node].parent; n != QN_NO_NODE && !start; n = model->nodes[n].parent) {
-    start = recall(f, n);
-    if (!start) {
-      if (!qn_grow(f->b->mem, &f->path, &f->path_capacity, depth + 1)) {
-        return QUOIN_E_MEMORY;
-      }
-      f->path[depth++] = n;
-    }
-  }
-  for (int i = 0; i < 12; i++) {
-    map[i] = start ? start->map[i] : i % 5 == 0 ? QN_NUM_ONE : QN_NUM_ZERO;
-  }
-  while (depth) {
-    uint32_t n = f->path[--depth];
-    if (model->nodes[n].kind >= QN_NODE_TRANSLATE && model->nodes[n].kind <= QN_NODE_MULTMATRIX) {
-      qn_num inner[12], composed[12];
-      qn_solid_map(ctx, model, n, inner);
-      qn_map_compose(ctx, map, inner, composed);
-      memcpy(map, composed, sizeof composed);
-    }
-    if (model->nodes[n].first != model->nodes[n].last && !remember(f, n, map)) {
-      return QUOIN_E_MEMORY;
-    }
-  }
-  return ctx->failed;
-}
 
 /* --- exact forms --------------------------------------------------------------------------------------------------- */
 
 static void clear(qn_ctx *ctx) {
   qn_arena_release(&ctx->arena, (qn_mark){NULL, NULL});
-}
-
-static quoin_status forms_of(finder *f, qn_ctx *ctx, uint32_t leaf, qn_half_form **forms) {
-  qn_num map[12];
-  size_t count;
-  uint32_t node = f->b->scene->leaves[leaf].node;
-  quoin_status status = map_of(f, ctx, node, map);
-  if (status == QUOIN_OK) {
-    qn_node_forms(ctx, f->b->model, node, map, forms, &count);
-    status = ctx->failed;
-  }
-  return status;
-}
-
-/* The exact half-space in work, in world coordinates. */
-static quoin_status form_of(finder *f, uint32_t leaf, uint32_t half, const qn_half_form **form) {
-  quoin_status status = QUOIN_OK;
-  if (f->leaf != leaf) {
-    f->leaf = NONE;
-    clear(&f->ctx);
-    status = forms_of(f, &f->ctx, leaf, &f->forms);
-    f->leaf = status == QUOIN_OK ? leaf : NONE;
-  }
-  if (status == QUOIN_OK) {
-    *form = &f->forms[half - f->b->scene->leaves[leaf].half0];
-  }
-  return status;
 }
 
 /* The surface's exact form: made, and kept in the scene. */
@@ -175,13 +47,12 @@ static quoin_status surface_form(finder *f, uint32_t surface, const qn_exact_sur
     return QUOIN_OK;
   }
   qn_half_form *forms;
-  clear(&f->other);
-  quoin_status status = forms_of(f, &f->other, surf->leaf, &forms);
+  quoin_status status = qn_forms_other(&f->forms, surf->leaf, &forms);
   if (status == QUOIN_OK) {
     qn_exact_surface form;
     int side;
-    qn_exact_of(&f->other, &forms[surf->half - s->leaves[surf->leaf].half0], &form, &side);
-    status = f->other.failed;
+    qn_exact_of(&f->forms.other, &forms[surf->half - s->leaves[surf->leaf].half0], &form, &side);
+    status = f->forms.other.failed;
     if (status == QUOIN_OK && !(*out = qn_scene_publish(s, surface, &form, NULL))) {
       status = QUOIN_E_MEMORY;
     }
@@ -235,10 +106,10 @@ static int same_super(qn_ctx *ctx, const qn_half_form *x, const qn_half_form *y)
 
 typedef struct subject {
   uint32_t leaf, half, key;
-  double print[2];
+  const double *print;
   int side;                 /* against its own normalised form; 0: not known yet */
   int has_exact;
-  qn_exact_surface exact;   /* in f->ctx */
+  qn_exact_surface exact;   /* in f->forms.ctx */
 } subject;
 
 static quoin_status exact_of(finder *f, subject *s) {
@@ -246,70 +117,11 @@ static quoin_status exact_of(finder *f, subject *s) {
     return QUOIN_OK;
   }
   const qn_half_form *form;
-  quoin_status status = form_of(f, s->leaf, s->half, &form);
+  quoin_status status = qn_forms_half(&f->forms, s->leaf, s->half, &form);
   if (status == QUOIN_OK) {
-    qn_exact_of(&f->ctx, form, &s->exact, &s->side);
-    status = f->ctx.failed;
+    qn_exact_of(&f->forms.ctx, form, &s->exact, &s->side);
+    status = f->forms.ctx.failed;
     s->has_exact = 1;
-  }
-  return status;
-}
-
-/* The vector in the frame of fingerprints from exact numbers, where doubles lose too much. */
-static quoin_status careful_vector(finder *f, const subject *s, qn_vector *out) {
-  const qn_half_form *form;
-  quoin_status status = form_of(f, s->leaf, s->half, &form);
-  if (status != QUOIN_OK) {
-    return status;
-  }
-  qn_half_form moved = *form;
-  qn_num origin[4] = {QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ONE};
-  for (int k = 0; k < 3; k++) {
-    origin[k] = qn_num_from_double(&f->ctx, f->frame.origin[k]);
-  }
-  for (int i = 0; i < (form->kind == QN_PLANE ? 1 : 3); i++) {
-    moved.row[i][3] = qn_num_dot(&f->ctx, 4, form->row[i], origin);
-  }
-  *out = (qn_vector){0};
-  if (form->kind == QN_SUPER_BODY) {
-    for (int i = 0; i < 14; i++) {
-      double c = qn_num_to_double(i < 12 ? moved.row[i / 4][i % 4] : form->s[i - 12]);
-      c = i < 12 && i % 4 == 3 ? ldexp(c, -f->frame.scale) : c;
-      out->c[i] = c;
-      out->magnitude[i] = fabs(c);
-    }
-    return f->ctx.failed;
-  }
-  qn_exact_surface exact;
-  int side;
-  qn_exact_of(&f->ctx, &moved, &exact, &side);
-  double m[10];
-  int64_t e[10], top = INT64_MIN;
-  for (int c = 0; c < 10; c++) {
-    qn_int_frexp(exact.q[c], &m[c], &e[c]);
-    e[c] -= (int64_t)f->frame.scale * (c < 6 ? 0 : c < 9 ? 1 : 2);
-    top = m[c] != 0 && e[c] > top ? e[c] : top;
-  }
-  for (int c = 0; c < 10; c++) {
-    int64_t below = e[c] - top;
-    out->c[c] = m[c] == 0 || below < -1000 ? 0 : ldexp(m[c], (int)below);
-    out->magnitude[c] = fabs(out->c[c]);
-  }
-  return f->ctx.failed;
-}
-
-static quoin_status look_at(finder *f, subject *s) {
-  const quoin_scene *scene = f->b->scene;
-  const qn_half *half = &scene->halves[s->half];
-  qn_vector v;
-  int fit = qn_vector_of(scene, &scene->leaves[s->leaf], half, &f->frame, &v);
-  s->side = half->kind == QN_SUPER_BODY ? 1 : fit ? qn_vector_sign(&v) : 0;
-  if (fit && qn_print_of(&v, s->print)) {
-    return QUOIN_OK;
-  }
-  quoin_status status = careful_vector(f, s, &v);
-  if (!qn_print_of(&v, s->print)) {
-    s->print[0] = s->print[1] = 0; /* sizes beyond doubles: all of these are candidates to one another */
   }
   return status;
 }
@@ -327,23 +139,25 @@ static int64_t cell_of(double print) {
 /* Whether the subject is surface `i`: 1, -1 (opposite orientation), 0. */
 static quoin_status compare(finder *f, subject *s, uint32_t i, int *same) {
   const quoin_scene *scene = f->b->scene;
+  const qn_surface *other = &scene->surfaces[i];
+  const double *print = f->crowd.prints[other->half];
   *same = 0;
   int super = scene->halves[s->half].kind == QN_SUPER_BODY;
-  if ((s->key && f->keys[i]) || super != (scene->surfaces[i].kind == QN_SUPER_BODY)) {
+  if ((s->key && f->b->keys[other->half]) || super != (other->kind == QN_SUPER_BODY)) {
     return QUOIN_OK; /* two keys that differ: two planes */
   }
-  if (fabs(s->print[0] - f->prints[i][0]) > 2 * QN_PRINT_ERROR || fabs(s->print[1] - f->prints[i][1]) > 2 * QN_PRINT_ERROR) {
+  if (fabs(s->print[0] - print[0]) > 2 * QN_PRINT_ERROR || fabs(s->print[1] - print[1]) > 2 * QN_PRINT_ERROR) {
     return QUOIN_OK;
   }
+  qn_ctx *ctx = &f->forms.other;
   if (super) {
     const qn_half_form *mine;
     qn_half_form *theirs;
-    quoin_status status = form_of(f, s->leaf, s->half, &mine);
-    clear(&f->other);
-    status = status == QUOIN_OK ? forms_of(f, &f->other, scene->surfaces[i].leaf, &theirs) : status;
+    quoin_status status = qn_forms_half(&f->forms, s->leaf, s->half, &mine);
+    status = status == QUOIN_OK ? qn_forms_other(&f->forms, other->leaf, &theirs) : status;
     if (status == QUOIN_OK) {
-      *same = same_super(&f->other, mine, &theirs[scene->surfaces[i].half - scene->leaves[scene->surfaces[i].leaf].half0]);
-      status = f->other.failed;
+      *same = same_super(ctx, mine, &theirs[other->half - scene->leaves[other->leaf].half0]);
+      status = ctx->failed;
     }
     return status;
   }
@@ -351,9 +165,9 @@ static quoin_status compare(finder *f, subject *s, uint32_t i, int *same) {
   quoin_status status = exact_of(f, s);
   status = status == QUOIN_OK ? surface_form(f, i, &theirs) : status;
   if (status == QUOIN_OK) {
-    clear(&f->other);
-    *same = agree(&f->other, &s->exact, theirs, f->frame.scale);
-    status = f->other.failed;
+    clear(ctx);
+    *same = agree(ctx, &s->exact, theirs, f->frame.scale);
+    status = ctx->failed;
   }
   return status;
 }
@@ -366,13 +180,13 @@ static quoin_status find(finder *f, subject *s, uint32_t *surface, int *same) {
     if (cell > low && chain == chain_of(f, low)) {
       continue;
     }
-    for (uint32_t i = f->chains[chain]; i != NONE; i = f->next[i]) {
-      quoin_status status = compare(f, s, i, same);
+    for (uint32_t l = f->chains[chain]; l != NONE; l = f->links[l].next) {
+      quoin_status status = compare(f, s, f->links[l].surface, same);
       if (status != QUOIN_OK) {
         return status;
       }
       if (*same) {
-        *surface = i;
+        *surface = f->links[l].surface;
         return QUOIN_OK;
       }
     }
@@ -380,11 +194,10 @@ static quoin_status find(finder *f, subject *s, uint32_t *surface, int *same) {
   return QUOIN_OK;
 }
 
-static int link_in(finder *f, uint32_t surface) {
-  size_t chain = chain_of(f, cell_of(f->prints[surface][0]));
-  f->next[surface] = f->chains[chain];
-  f->chains[chain] = surface;
-  return 1;
+static void link_in(finder *f, uint32_t l) {
+  size_t chain = chain_of(f, cell_of(f->crowd.prints[f->b->scene->surfaces[f->links[l].surface].half][0]));
+  f->links[l].next = f->chains[chain];
+  f->chains[chain] = l;
 }
 
 static int more_chains(finder *f) {
@@ -397,35 +210,50 @@ static int more_chains(finder *f) {
   f->chains = chains;
   f->chain_count = n;
   memset(chains, 0xff, n * sizeof *chains);
-  for (uint32_t i = 0; i < f->b->scene->surface_count; i++) {
-    link_in(f, i);
+  for (uint32_t l = 0; l < f->link_count; l++) {
+    link_in(f, l);
   }
   return 1;
 }
 
-static quoin_status add_surface(finder *f, const subject *s, uint32_t *surface) {
+/* There is room: see start(). */
+static uint32_t add_surface(finder *f, uint32_t leaf, uint32_t half) {
   quoin_scene *scene = f->b->scene;
-  qn_mem *mem = f->b->mem;
-  size_t n = scene->surface_count;
-  if (!qn_grow(mem, &scene->surfaces, &f->surface_capacity, n + 1) || !qn_grow(mem, &f->prints, &f->print_capacity, n + 1) ||
-      !qn_grow(mem, &f->next, &f->next_capacity, n + 1) || !qn_grow(mem, &f->keys, &f->key_capacity, n + 1) ||
-      (n >= f->chain_count && !more_chains(f))) {
-    return QUOIN_E_MEMORY;
+  qn_surface *s = &scene->surfaces[scene->surface_count];
+  s->leaf = leaf;
+  s->half = half;
+  s->users = 0;
+  s->materials_differ = 0;
+  s->kind = scene->halves[half].kind;
+  atomic_init(&s->exact, NULL);
+  atomic_init(&s->rounding, NULL);
+  return (uint32_t)scene->surface_count++;
+}
+
+static int add_link(finder *f, uint32_t surface) {
+  if (!qn_grow(f->b->mem, &f->links, &f->link_capacity, f->link_count + 1) || (f->link_count >= f->chain_count && !more_chains(f))) {
+    return 0;
   }
-  scene->surfaces[n].leaf = s->leaf;
-  scene->surfaces[n].half = s->half;
-  scene->surfaces[n].users = 0;
-  scene->surfaces[n].materials_differ = 0;
-  scene->surfaces[n].kind = scene->halves[s->half].kind;
-  atomic_init(&scene->surfaces[n].exact, NULL);
-  atomic_init(&scene->surfaces[n].rounding, NULL);
-  f->prints[n][0] = s->print[0];
-  f->prints[n][1] = s->print[1];
-  f->keys[n] = s->key;
-  scene->surface_count++;
-  link_in(f, (uint32_t)n);
-  *surface = (uint32_t)n;
-  return QUOIN_OK;
+  f->links[f->link_count].surface = surface;
+  link_in(f, (uint32_t)f->link_count++);
+  return 1;
+}
+
+/* A half-space in a crowd: its surface, new or not, and its side. */
+static quoin_status identify_in_crowd(finder *f, uint32_t leaf, uint32_t half, uint32_t *surface, int8_t *side) {
+  subject s = {.leaf = leaf, .half = half, .key = f->b->keys[half], .print = f->crowd.prints[half], .side = f->crowd.side[half]};
+  int same = 0;
+  quoin_status status = find(f, &s, surface, &same);
+  if (status == QUOIN_OK && s.side == 0) {
+    status = exact_of(f, &s);
+  }
+  if (status == QUOIN_OK && *surface == NONE) {
+    *surface = add_surface(f, leaf, half);
+    status = add_link(f, *surface) ? QUOIN_OK : QUOIN_E_MEMORY;
+    same = 1;
+  }
+  *side = (int8_t)(s.side * same);
+  return status;
 }
 
 static int normal_sign(const qn_plane_shadow *p) {
@@ -441,54 +269,50 @@ static quoin_status identify(finder *f, uint32_t leaf, uint32_t half) {
   quoin_scene *scene = f->b->scene;
   qn_half *h = &scene->halves[half];
   uint32_t key = f->b->keys[half], surface = NONE;
-  int normal = h->kind == QN_PLANE ? normal_sign(&scene->planes[h->shadow]) : 1;
+  int normal = key ? normal_sign(&scene->planes[h->shadow]) : 1;
   if (key && f->by_key[key] != NONE) {
     surface = f->by_key[key];
     h->side = (int8_t)(f->key_side[key] * normal);
   } else {
-    subject s = {.leaf = leaf, .half = half, .key = key};
-    int same = 0;
-    quoin_status status = look_at(f, &s);
-    status = status == QUOIN_OK ? find(f, &s, &surface, &same) : status;
-    if (status == QUOIN_OK && s.side == 0) {
-      status = exact_of(f, &s);
+    if (!(atomic_load_explicit(&f->crowd.is[half], memory_order_relaxed) & QN_CROWDED)) {
+      surface = add_surface(f, leaf, half);
+      h->side = f->crowd.side[half];
+    } else {
+      quoin_status status = identify_in_crowd(f, leaf, half, &surface, &h->side);
+      if (status != QUOIN_OK) {
+        return status;
+      }
     }
-    if (status == QUOIN_OK && surface == NONE) {
-      status = add_surface(f, &s, &surface);
-      same = 1;
-    }
-    if (status != QUOIN_OK) {
-      return status;
-    }
-    h->side = (int8_t)(s.side * same);
     if (key) {
       f->by_key[key] = surface;
       f->key_side[key] = (int8_t)(h->side * normal);
     }
   }
   h->surface = surface;
-  scene->surfaces[surface].users++;
+  qn_surface *s = &scene->surfaces[surface];
+  s->users++;
+  s->materials_differ |= s->leaf != leaf && scene->leaves[s->leaf].material != scene->leaves[leaf].material;
   return QUOIN_OK;
 }
 
 static quoin_status start(finder *f, qn_building *b) {
-  *f = (finder){.b = b, .leaf = NONE};
-  qn_ctx *all[] = {&f->ctx, &f->other, &f->maps};
-  for (size_t i = 0; i < 3; i++) {
-    qn_ctx_init(all[i], b->mem);
-    all[i]->max_bits = QN_MAX_SCENE_BITS;
-  }
+  *f = (finder){.b = b};
+  qn_forms_init(&f->forms, b);
   qn_print_frame_of(b->scene, &f->frame);
-  for (size_t i = 0; i < b->scene->half_count; i++) {
-    f->key_room = b->keys[i] >= f->key_room ? (size_t)b->keys[i] + 1 : f->key_room;
-  }
-  f->by_key = qn_alloc(b->mem, f->key_room * sizeof *f->by_key);
-  f->key_side = qn_alloc_zeroed(b->mem, f->key_room);
+  size_t keys = b->key_count;
+  f->by_key = qn_alloc(b->mem, keys * sizeof *f->by_key);
+  f->key_side = qn_alloc_zeroed(b->mem, keys);
   if (!f->by_key || !f->key_side || !more_chains(f)) {
     return QUOIN_E_MEMORY;
   }
-  memset(f->by_key, 0xff, f->key_room * sizeof *f->by_key);
-  return QUOIN_OK;
+  memset(f->by_key, 0xff, keys * sizeof *f->by_key);
+  f->surface_room = keys - 1; /* at most one surface for each key, and one for each half-space without */
+  for (size_t i = 0; i < b->scene->half_count; i++) {
+    f->surface_room += b->keys[i] == 0;
+  }
+  b->scene->surfaces = qn_alloc(b->mem, f->surface_room * sizeof *b->scene->surfaces);
+  b->scene->surface_room = f->surface_room;
+  return b->scene->surfaces ? qn_crowd_find(&f->crowd, b, &f->frame) : QUOIN_E_MEMORY;
 }
 
 quoin_status qn_identify(qn_building *b) {
@@ -500,18 +324,11 @@ quoin_status qn_identify(qn_building *b) {
       status = identify(&f, i, s->leaves[i].half0 + h);
     }
   }
-  qn_free(b->mem, f.prints, f.print_capacity * sizeof *f.prints);
-  qn_free(b->mem, f.next, f.next_capacity * sizeof *f.next);
-  qn_free(b->mem, f.keys, f.key_capacity * sizeof *f.keys);
+  qn_crowd_free(&f.crowd, b->mem);
+  qn_free(b->mem, f.links, f.link_capacity * sizeof *f.links);
   qn_free(b->mem, f.chains, f.chain_count * sizeof *f.chains);
-  qn_free(b->mem, f.by_key, f.key_room * sizeof *f.by_key);
-  qn_free(b->mem, f.key_side, f.key_room);
-  qn_free(b->mem, f.known, f.known_capacity * sizeof *f.known);
-  qn_free(b->mem, f.known_slots, f.known_slot_count * sizeof *f.known_slots);
-  qn_free(b->mem, f.path, f.path_capacity * sizeof *f.path);
-  qn_ctx_free(&f.ctx);
-  qn_ctx_free(&f.other);
-  qn_ctx_free(&f.maps);
-  s->surface_room = f.surface_capacity;
+  qn_free(b->mem, f.by_key, b->key_count * sizeof *f.by_key);
+  qn_free(b->mem, f.key_side, b->key_count);
+  qn_forms_free(&f.forms);
   return status;
 }

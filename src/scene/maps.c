@@ -196,6 +196,7 @@ quoin_status qn_maps_init(qn_maps *maps, const quoin_model *model, qn_mem *mem) 
   identity(root->exact);
   balls_from(maps, root, root->exact);
   settle(root);
+  root->settled = 1;
   return QUOIN_OK;
 }
 
@@ -236,9 +237,10 @@ static int translate(qn_maps *maps, const qn_composed *outer, qn_composed *c, ui
   const qn_num *by = maps->model->numbers + maps->model->nodes[node].number0;
   qn_num place[3];
   for (int i = 0; i < 3; i++) {
-    int j = 0;
-    while (qn_num_is_zero(outer->exact[4 * i + j])) {
-      j++;
+    int j = i;
+    if (!outer->shift_only) {
+      for (j = 0; qn_num_is_zero(outer->exact[4 * i + j]); j++) {
+      }
     }
     qn_num way = outer->shift_only ? by[j] : qn_num_mul(&maps->scratch, outer->exact[4 * i + j], by[j]);
     place[i] = qn_num_add(&maps->scratch, outer->exact[4 * i + 3], way);
@@ -246,19 +248,42 @@ static int translate(qn_maps *maps, const qn_composed *outer, qn_composed *c, ui
       return 0;
     }
   }
-  memcpy(c->map, outer->map, sizeof c->map);
-  memcpy(c->shadow, outer->shadow, sizeof c->shadow);
   memcpy(c->exact, outer->exact, sizeof c->exact);
+  for (int i = 0; i < 3; i++) {
+    c->exact[4 * i + 3] = place[i];
+  }
   c->shift_only = outer->shift_only;
   c->has_exact = c->aligned = 1;
+  c->settled = 0;
+  return 1;
+}
+
+/* What translate() left undone. */
+static void settle_translation(qn_maps *maps, const qn_composed *outer, qn_composed *c) {
+  memcpy(c->map, outer->map, sizeof c->map);
+  memcpy(c->shadow, outer->shadow, sizeof c->shadow);
   c->tame = outer->tame;
   for (int i = 3; i < 12; i += 4) {
-    c->exact[i] = place[i / 4];
-    c->map[i] = qn_ball_from_num(&maps->scratch, place[i / 4]);
+    c->map[i] = qn_ball_from_num(&maps->scratch, c->exact[i]);
     c->shadow[i] = qn_ball_to_double(&c->map[i]);
     c->tame &= is_tame(&c->map[i]);
   }
-  return 1;
+  c->settled = 1;
+}
+
+static void settle_up_to(qn_maps *maps, size_t last) {
+  size_t from = last;
+  while (!maps->stack[from].settled) {
+    from--; /* the root is */
+  }
+  while (from < last) {
+    from++;
+    settle_translation(maps, &maps->stack[from - 1], &maps->stack[from]);
+  }
+}
+
+void qn_maps_settle(qn_maps *maps) {
+  settle_up_to(maps, maps->count - 1);
 }
 
 quoin_status qn_maps_push(qn_maps *maps, qn_mem *mem, uint32_t node) {
@@ -273,7 +298,9 @@ quoin_status qn_maps_push(qn_maps *maps, qn_mem *mem, uint32_t node) {
   qn_mark mark = qn_arena_mark(&maps->scratch.arena);
   quoin_status status = QUOIN_OK;
   if (!(outer->aligned && maps->model->nodes[node].kind == QN_NODE_TRANSLATE && translate(maps, outer, c, node))) {
+    settle_up_to(maps, maps->count - 2);
     status = compose(maps, outer, c, node);
+    c->settled = 1;
   }
   status = status != QUOIN_OK ? status : maps->scratch.failed != QUOIN_OK ? maps->scratch.failed : maps->exact.failed;
   qn_arena_release(&maps->scratch.arena, mark);
@@ -326,6 +353,7 @@ static int invert(const qn_ball map[12], qn_ball inverse[9]) {
 }
 
 int qn_maps_inverse(qn_maps *maps) {
+  qn_maps_settle(maps);
   if (maps->inverse_of != maps->count - 1) {
     maps->inverse_state = invert(top_of(maps)->map, maps->inverse);
     maps->inverse_of = maps->count - 1;

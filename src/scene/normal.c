@@ -1,5 +1,6 @@
 #include "scene/normal.h"
 
+#include "base/thread.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -563,30 +564,102 @@ static int draw(maker *m, uint32_t set, const double clip[6]) {
   return draw_meet(m, set, clip);
 }
 
+/* --- a union of leaves ------------------------------------------------------------------------------------------------ */
+
+/* The commonest scene: a union of leaves, and the hierarchy over them is there already. */
+static int is_plain_union(const maker *m) {
+  const quoin_scene *s = m->scene;
+  return m->gates == 1 && s->leaf_count > 0 && s->bvh.item_count + s->unbounded_count == s->leaf_count && s->bvh.node_count && set_is_union(m, 0);
+}
+
+enum { STRETCH = 1024 }; /* nodes a thread takes at once */
+
+/* The terms below a stretch of nodes; their boxes are the leaves', rounded as the nodes have them. */
+static quoin_status terms_of_nodes(void *user, unsigned thread, size_t number) {
+  (void)thread;
+  const maker *m = user;
+  const qn_bvh *bvh = &m->scene->bvh;
+  size_t end = (number + 1) * STRETCH < bvh->node_count ? (number + 1) * STRETCH : bvh->node_count;
+  for (size_t i = number * STRETCH; i < end; i++) {
+    const qn_bvh_node *node = &bvh->nodes[i];
+    for (int c = 0; c < QN_BVH_WIDE; c++) {
+      uint32_t at = node->child[c] & ~QN_BVH_LEAF;
+      if (node->child[c] == QN_BVH_NONE || !(node->child[c] & QN_BVH_LEAF)) {
+        continue;
+      }
+      m->n->leaves[at] = bvh->items[at];
+      m->n->terms[at] = (qn_nterm){.min = {node->min[0][c], node->min[1][c], node->min[2][c]},
+                                   .max = {node->max[0][c], node->max[1][c], node->max[2][c]}, .leaf0 = at, .leaves = 1};
+    }
+  }
+  return QUOIN_OK;
+}
+
+static quoin_status plain_union(maker *m) {
+  qn_normal *n = m->n;
+  const quoin_scene *s = m->scene;
+  size_t narrow = s->bvh.item_count;
+  if (s->leaf_count >= QN_BVH_LEAF) {
+    return QUOIN_E_LIMIT;
+  }
+  if (!qn_grow(m->mem, &n->unions, &n->union_capacity, 1)) {
+    return QUOIN_E_MEMORY;
+  }
+  n->terms = qn_alloc(m->mem, s->leaf_count * sizeof *n->terms);
+  n->term_count = n->term_capacity = s->leaf_count;
+  n->leaves = qn_alloc(m->mem, s->leaf_count * sizeof *n->leaves);
+  n->leaf_count = n->leaf_capacity = s->leaf_count;
+  if (!n->terms || !n->leaves) {
+    return QUOIN_E_MEMORY;
+  }
+  n->nodes = s->bvh.nodes;
+  n->node_count = n->node_capacity = s->bvh.node_count;
+  n->borrowed = 1;
+  n->unions[n->union_count++] = (qn_union){.root = 0, .terms = (uint32_t)narrow, .wide0 = (uint32_t)narrow, .wide = (uint32_t)s->unbounded_count};
+  for (size_t i = 0; i < s->unbounded_count; i++) {
+    const qn_leaf *l = &s->leaves[s->unbounded[i]];
+    n->leaves[narrow + i] = s->unbounded[i];
+    n->terms[narrow + i] = (qn_nterm){.min = {down(l->min[0]), down(l->min[1]), down(l->min[2])},
+                                      .max = {up(l->max[0]), up(l->max[1]), up(l->max[2])}, .leaf0 = (uint32_t)(narrow + i), .leaves = 1};
+  }
+  n->made = 1;
+  return qn_parallel(m->threads, (s->bvh.node_count + STRETCH - 1) / STRETCH, terms_of_nodes, m, NULL);
+}
+
+/* --- the whole --------------------------------------------------------------------------------------------------------- */
+
+static void from_root(maker *m) {
+  static const double all[6] = {-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY};
+  qn_normal *n = m->n;
+  if (m->kid0[1] != m->kid0[0] && !draw(m, 0, all)) {
+    return;
+  }
+  n->root = make_union(m, 0);
+  if (!m->status && n->root == NONE) { /* nothing: a union of no terms */
+    if (!qn_grow(m->mem, &n->unions, &n->union_capacity, n->union_count + 1)) {
+      refuse(m);
+      return;
+    }
+    n->unions[n->union_count] = (qn_union){.root = QN_NO_ROOT};
+    n->root = (uint32_t)n->union_count++;
+  }
+  n->made = !m->status;
+  n->copies = n->leaf_count > m->scene->leaf_count ? n->leaf_count - m->scene->leaf_count : 0;
+}
+
 quoin_status qn_normal_build(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads) {
   return qn_normal_build_within(normal, scene, mem, threads, QN_COPY_BUDGET * scene->leaf_count + QN_COPY_FLOOR);
 }
 
 quoin_status qn_normal_build_within(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads, size_t budget) {
-  static const double all[6] = {-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY};
   *normal = (qn_normal){0};
   maker m = {.scene = scene, .mem = mem, .n = normal, .threads = threads, .gates = scene->program.gate_count, .budget = budget};
   if (read_gates(&m)) {
     normal->complement = m.truth[0];
-    size_t kids = m.kid0[1] - m.kid0[0];
-    if (kids == 0 || draw(&m, 0, all)) {
-      uint32_t root = make_union(&m, 0);
-      if (!m.status && root == NONE) { /* nothing: a union of no terms */
-        if (qn_grow(mem, &normal->unions, &normal->union_capacity, normal->union_count + 1)) {
-          normal->unions[normal->union_count] = (qn_union){.root = QN_NO_ROOT};
-          root = (uint32_t)normal->union_count++;
-        } else {
-          refuse(&m);
-        }
-      }
-      normal->root = root;
-      normal->made = !m.status;
-      normal->copies = normal->leaf_count > scene->leaf_count ? normal->leaf_count - scene->leaf_count : 0;
+    if (is_plain_union(&m)) {
+      m.status = plain_union(&m);
+    } else {
+      from_root(&m);
     }
   }
   size_t gates = m.gates;
@@ -608,11 +681,13 @@ void qn_normal_free(qn_normal *n, qn_mem *mem) {
   qn_free(mem, n->leaves, n->leaf_capacity * sizeof *n->leaves);
   qn_free(mem, n->lists, n->list_capacity * sizeof *n->lists);
   qn_free(mem, n->unions, n->union_capacity * sizeof *n->unions);
-  qn_free_line(mem, n->nodes, n->node_capacity * sizeof *n->nodes);
+  if (!n->borrowed) {
+    qn_free_line(mem, n->nodes, n->node_capacity * sizeof *n->nodes);
+  }
   *n = (qn_normal){0};
 }
 
 size_t qn_normal_bytes(const qn_normal *n) {
   return n->term_capacity * sizeof *n->terms + n->leaf_capacity * sizeof *n->leaves + n->list_capacity * sizeof *n->lists +
-         n->union_capacity * sizeof *n->unions + n->node_capacity * sizeof *n->nodes;
+         n->union_capacity * sizeof *n->unions + (n->borrowed ? 0 : n->node_capacity * sizeof *n->nodes);
 }

@@ -47,6 +47,7 @@ typedef struct qn_normal {
   int made;           /* 0: too deep, or not made */
   size_t copies;      /* leaf instances beyond one a leaf */
   size_t shared;      /* unions shared because the budget was met */
+  int borrowed;       /* nodes are the scene's bvh, which owns them */
 } qn_normal;
 
 struct quoin_scene;

@@ -132,9 +132,18 @@ static char *put_number(char *at, uint64_t v) {
   return at;
 }
 
-uint32_t qn_name_of_leaf(qn_building *b, uint32_t node, size_t ordinal) {
-  const qn_node *n = &b->model->nodes[node];
-  char text[64], *at = text;
+static size_t digits_of(uint64_t v) {
+  size_t n = 1;
+  while (v >= 10) {
+    v /= 10;
+    n++;
+  }
+  return n;
+}
+
+size_t qn_name_of_leaf(const quoin_model *model, uint32_t node, size_t ordinal, char text[QN_PLACE_NAME]) {
+  const qn_node *n = &model->nodes[node];
+  char *at = text;
   for (const char *c = qn_prims[n->payload].word; *c; c++) {
     *at++ = *c;
   }
@@ -147,6 +156,12 @@ uint32_t qn_name_of_leaf(qn_building *b, uint32_t node, size_t ordinal) {
     *at++ = '#';
     at = put_number(at, ordinal);
   }
-  *at = '\0';
-  return qn_name_add(b, text);
+  *at++ = '\0';
+  return (size_t)(at - text);
+}
+
+size_t qn_name_length(const quoin_model *model, uint32_t node, size_t ordinal) {
+  const qn_node *n = &model->nodes[node];
+  size_t word = strlen(qn_prims[n->payload].word);
+  return word + (n->loc.line ? 3 + digits_of(n->loc.line) + digits_of(n->loc.column) : 2 + digits_of(ordinal));
 }

@@ -1,6 +1,7 @@
 #include "scene/piece.h"
 
 #include "base/bounds.h"
+#include "base/thread.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -45,10 +46,9 @@ static int axis_of(const qn_plane_shadow *p) {
 }
 
 /* Fills `box` and returns 1 when the leaf is six planes, two across each axis. */
-static int is_box(const quoin_scene *scene, uint32_t leaf, qn_piece_box *box) {
-  const qn_leaf *l = &scene->leaves[leaf];
+static int is_box(const quoin_scene *scene, const qn_leaf *l, qn_piece_box *box) {
   unsigned seen = 0;
-  *box = (qn_piece_box){.head = {QN_PIECE_BOX, leaf}};
+  *box = (qn_piece_box){.head = {.kind = QN_PIECE_BOX}};
   for (uint32_t i = l->half0; l->halves == 6 && i < l->half0 + 6; i++) {
     const qn_half *h = &scene->halves[i];
     const qn_plane_shadow *p = &scene->planes[h->shadow];
@@ -67,12 +67,11 @@ static int is_box(const quoin_scene *scene, uint32_t leaf, qn_piece_box *box) {
 }
 
 /* A quadric body and at most two caps that face apart. */
-static int is_round(const quoin_scene *scene, uint32_t leaf, qn_piece_round *round) {
-  const qn_leaf *l = &scene->leaves[leaf];
+static int is_round(const quoin_scene *scene, const qn_leaf *l, qn_piece_round *round) {
   if (l->halves < 1 || l->halves > 3) {
     return 0;
   }
-  *round = (qn_piece_round){.head = {QN_PIECE_ROUND, leaf}, .surface = {UINT32_MAX, UINT32_MAX, UINT32_MAX}};
+  *round = (qn_piece_round){.head = {.kind = QN_PIECE_ROUND}, .surface = {UINT32_MAX, UINT32_MAX, UINT32_MAX}};
   memcpy(round->pivot, l->pivot, sizeof round->pivot);
   double reach = 0;
   int caps = 0;
@@ -127,74 +126,108 @@ static int is_plain(const quoin_scene *scene, const qn_leaf *l) {
   return large < 0x1p+100 && small > 0x1p-100;
 }
 
-static size_t piece_of(const quoin_scene *scene, uint32_t leaf, void *line) {
-  const qn_leaf *l = &scene->leaves[leaf];
-  if (is_plain(scene, l)) {
-    if (is_sphere(scene, l)) {
-      const qn_half *h = &scene->halves[l->half0];
-      const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
-      double scale = q->row[0][0];
-      qn_piece_sphere s = {.head = {QN_PIECE_SPHERE, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .surface = h->surface};
-      memcpy(s.centre, l->pivot, sizeof s.centre);
-      for (int i = 0; i < 3; i++) {
-        s.off = fmax(s.off, fabs(q->row[i][3] / scale) * (1 + 0x1p-40));
-      }
-      memcpy(line, &s, sizeof s);
-      return 1;
-    }
-    qn_piece_box box;
-    if (is_box(scene, leaf, &box)) {
-      memcpy(line, &box, sizeof box);
-      return 2;
-    }
-    qn_piece_round round;
-    if (is_round(scene, leaf, &round)) {
-      memcpy(line, &round, sizeof round);
-      return 4;
-    }
+qn_piece_kind qn_piece_kind_of(const quoin_scene *scene, const qn_leaf *l) {
+  qn_piece_box box;
+  qn_piece_round round;
+  if (!is_plain(scene, l)) {
+    return QN_PIECE_HARD;
   }
-  qn_piece_meet meet = {.head = {is_plain(scene, l) ? QN_PIECE_MEET : QN_PIECE_HARD, leaf}};
-  memcpy(line, &meet, sizeof meet);
+  return is_sphere(scene, l)          ? QN_PIECE_SPHERE
+         : is_box(scene, l, &box)     ? QN_PIECE_BOX
+         : is_round(scene, l, &round) ? QN_PIECE_ROUND
+                                      : QN_PIECE_MEET;
+}
+
+static size_t lines_of(qn_piece_kind kind) {
+  switch (kind) {
+  case QN_PIECE_SPHERE: case QN_PIECE_MEET: case QN_PIECE_HARD: return 1;
+  case QN_PIECE_BOX: return 2;
+  case QN_PIECE_ROUND: return 4;
+  }
   return 1;
 }
 
-static void compare_materials(quoin_scene *scene) {
-  for (size_t i = 0; i < scene->leaf_count; i++) {
-    const qn_leaf *l = &scene->leaves[i];
-    for (uint32_t h = l->half0; h < l->half0 + l->halves; h++) {
-      qn_surface *s = &scene->surfaces[scene->halves[h].surface];
-      s->materials_differ |= scene->leaves[s->leaf].material != l->material;
+static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind kind, void *line) {
+  const qn_leaf *l = &scene->leaves[leaf];
+  switch (kind) {
+  case QN_PIECE_SPHERE: {
+    const qn_half *h = &scene->halves[l->half0];
+    const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
+    double scale = q->row[0][0];
+    qn_piece_sphere s = {.head = {kind, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .surface = h->surface};
+    memcpy(s.centre, l->pivot, sizeof s.centre);
+    for (int i = 0; i < 3; i++) {
+      double off = fabs(q->row[i][3] / scale) * (1 + 0x1p-40);
+      s.off = off > s.off ? off : s.off;
     }
+    memcpy(line, &s, sizeof s);
+    return;
+  }
+  case QN_PIECE_BOX: {
+    qn_piece_box box;
+    if (is_box(scene, l, &box)) {
+      box.head.leaf = leaf;
+      memcpy(line, &box, sizeof box);
+    }
+    return;
+  }
+  case QN_PIECE_ROUND: {
+    qn_piece_round round;
+    if (is_round(scene, l, &round)) {
+      round.head.leaf = leaf;
+      memcpy(line, &round, sizeof round);
+    }
+    return;
+  }
+  case QN_PIECE_MEET: case QN_PIECE_HARD: {
+    qn_piece_meet meet = {.head = {kind, leaf}};
+    memcpy(line, &meet, sizeof meet);
+    return;
+  }
   }
 }
 
-quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem) {
+enum { STRETCH = 4096 }; /* leaves a thread takes at once */
+#define NOT_MET UINT32_MAX
+
+typedef struct filling { quoin_scene *scene; const uint8_t *kinds; } filling;
+
+static quoin_status fill(void *user, unsigned thread, size_t i) {
+  (void)thread;
+  const filling *f = user;
+  quoin_scene *s = f->scene;
+  size_t end = (i + 1) * STRETCH < s->leaf_count ? (i + 1) * STRETCH : s->leaf_count;
+  for (size_t leaf = i * STRETCH; leaf < end; leaf++) { /* in the order in which leaves lie in memory: they are the larger part */
+    if (s->line_of[leaf] != NOT_MET) {
+      write_piece(s, (uint32_t)leaf, (qn_piece_kind)f->kinds[leaf], (char *)s->lines + (size_t)s->line_of[leaf] * 64);
+    }
+  }
+  return QUOIN_OK;
+}
+
+quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem, const uint8_t *kinds, unsigned threads) {
   const qn_normal *n = &scene->normal;
-  compare_materials(scene);
   scene->line_of = qn_alloc(mem, scene->leaf_count * sizeof *scene->line_of);
   if (!scene->line_of) {
     return QUOIN_E_MEMORY;
   }
   memset(scene->line_of, 0xff, scene->leaf_count * sizeof *scene->line_of);
   size_t lines = 0;
-  for (int fill = 0; fill < 2; fill++) { /* count, then fill */
-    lines = 0;
-    for (size_t i = 0; i < n->leaf_count; i++) {
-      uint32_t leaf = n->leaves[i];
-      _Alignas(64) char line[256];
-      if (fill ? scene->line_of[leaf] == UINT32_MAX - 1 : scene->line_of[leaf] == UINT32_MAX) {
-        size_t size = piece_of(scene, leaf, fill ? (void *)((char *)scene->lines + lines * 64) : (void *)line);
-        scene->line_of[leaf] = fill ? (uint32_t)lines : UINT32_MAX - 1;
-        lines += size;
-      }
-    }
-    if (!fill) {
-      scene->line_count = lines;
-      scene->lines = qn_alloc_line(mem, lines * 64);
-      if (!scene->lines || lines >= UINT32_MAX - 1) {
-        return QUOIN_E_MEMORY;
-      }
+  for (size_t i = 0; i < n->leaf_count; i++) {
+    uint32_t leaf = n->leaves[i];
+    if (scene->line_of[leaf] == NOT_MET) {
+      scene->line_of[leaf] = (uint32_t)lines;
+      lines += lines_of((qn_piece_kind)kinds[leaf]);
     }
   }
-  return QUOIN_OK;
+  if (lines >= NOT_MET) {
+    return QUOIN_E_LIMIT;
+  }
+  scene->line_count = lines;
+  scene->lines = qn_alloc_line(mem, lines * 64);
+  if (!scene->lines) {
+    return QUOIN_E_MEMORY;
+  }
+  filling f = {scene, kinds};
+  return qn_parallel(threads, (scene->leaf_count + STRETCH - 1) / STRETCH, fill, &f, NULL);
 }

@@ -59,7 +59,10 @@ _Static_assert(sizeof(qn_piece_sphere) == 64 && sizeof(qn_piece_box) == 128 && s
 _Static_assert(sizeof(qn_piece_round) == 256, "whole cache lines");
 
 struct quoin_scene;
-/* Fills scene->lines and scene->line_of (by leaf), in the order of the normal form's leaves. */
-QN_NODISCARD quoin_status qn_pieces_build(struct quoin_scene *scene, qn_mem *mem);
+struct qn_leaf;
+/* The kind of a leaf's piece, from its half-spaces and shadows. */
+qn_piece_kind qn_piece_kind_of(const struct quoin_scene *scene, const struct qn_leaf *leaf);
+/* Fills scene->lines and scene->line_of (by leaf), in the order of the normal form's leaves. kinds: by leaf. */
+QN_NODISCARD quoin_status qn_pieces_build(struct quoin_scene *scene, qn_mem *mem, const uint8_t *kinds, unsigned threads);
 
 #endif

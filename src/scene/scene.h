@@ -71,7 +71,6 @@ struct quoin_scene {
   uint32_t *line_of;              /* by leaf: its piece's first line */
   qn_material *materials; size_t material_count; /* all parts filled in; 0 is the default material */
   uint32_t *part_names; /* by leaf: offset in name_text */
-  size_t part_name_room; /* entries that part_names has room for */
   char *name_text; size_t name_size;
   int empty;
   double min[3], max[3];          /* of the solid */

@@ -31,18 +31,18 @@ static int usual_size(double v, int is_zero) {
   return is_zero || (fabs(v) < 0x1p400 && fabs(v) > 0x1p-400);
 }
 
-quoin_status qn_local_make(qn_building *b, uint32_t node) {
-  qn_local *l = &b->local;
-  if (l->node != QN_NO_NODE && same_numbers(b->model, l->node, node)) {
+quoin_status qn_local_make(qn_maker *m, uint32_t node) {
+  qn_local *l = &m->local;
+  if (l->node != QN_NO_NODE && same_numbers(m->model, l->node, node)) {
     return QUOIN_OK;
   }
-  const qn_node *n = &b->model->nodes[node];
-  const qn_num *numbers = b->model->numbers + n->number0;
+  const qn_node *n = &m->model->nodes[node];
+  const qn_num *numbers = m->model->numbers + n->number0;
   size_t count = n->numbers - (n->flags & QN_NODE_PLACED ? 6 : 0);
   l->node = QN_NO_NODE;
   l->prim = n->payload;
   qn_arena_release(&l->ctx.arena, (qn_mark){NULL, NULL});
-  if (!qn_grow(b->mem, &l->args, &l->args_capacity, count + 1)) {
+  if (!qn_grow(m->mem, &l->args, &l->args_capacity, count + 1)) {
     return QUOIN_E_MEMORY;
   }
   l->tame = 1;
@@ -68,7 +68,7 @@ quoin_status qn_local_make(qn_building *b, uint32_t node) {
     return l->ctx.failed;
   }
   if (l->result == QN_FORM_OK) {
-    if (!qn_grow(b->mem, &l->rows, &l->rows_capacity, l->count)) {
+    if (!qn_grow(m->mem, &l->rows, &l->rows_capacity, l->count)) {
       return QUOIN_E_MEMORY;
     }
     for (size_t h = 0; h < l->count; h++) {
@@ -104,9 +104,9 @@ static int is_double(const qn_ball *a) {
   return a->sign == 0 || (a->err == 0 && !(a->m[0] | a->m[1] | a->m[2]) && !(a->m[3] & 0x7ff));
 }
 
-int qn_leaf_box(const qn_building *b, double min[3], double max[3]) {
-  const qn_local *l = &b->local;
-  const qn_composed *map = &b->maps.stack[b->maps.count - 1];
+int qn_leaf_box(const qn_maker *m, double min[3], double max[3]) {
+  const qn_local *l = &m->local;
+  const qn_composed *map = &m->maps.stack[m->maps.count - 1];
   const qn_prim_row *row = &qn_prims[l->prim];
   for (int k = 0; k < 3; k++) {
     min[k] = -INFINITY;
@@ -150,14 +150,14 @@ int qn_leaf_box(const qn_building *b, double min[3], double max[3]) {
 }
 
 /* A double point near the leaf: the image of its local origin (or base), rounded, unless that is far from the box. */
-static void choose_pivot(const qn_building *b, qn_leaf *leaf) {
-  const qn_composed *map = &b->maps.stack[b->maps.count - 1];
+static void choose_pivot(const qn_maker *m, qn_leaf *leaf) {
+  const qn_composed *map = &m->maps.stack[m->maps.count - 1];
   double size = 0;
   for (int k = 0; k < 3; k++) {
     const double *v = &map->shadow[4 * k];
     double p = v[3];
-    for (int j = 0; j < 3 && b->local.placed; j++) {
-      p += v[j] * b->local.placed[j];
+    for (int j = 0; j < 3 && m->local.placed; j++) {
+      p += v[j] * m->local.placed[j];
     }
     leaf->pivot[k] = isfinite(p) ? p : 0;
     size = leaf->bounded ? fmax(size, leaf->max[k] - leaf->min[k]) : INFINITY;
@@ -217,15 +217,15 @@ static size_t rows_of(const qn_half_form *h) {
 }
 
 /* All rows of the leaf by balls: rows[half][i][j]. 1, 0 when they cannot tell, -1 when the map is singular. */
-static int rows_by_balls(qn_building *b, const qn_leaf *leaf, double (*rows)[3][4]) {
-  const qn_composed *map = &b->maps.stack[b->maps.count - 1];
+static int rows_by_balls(qn_maker *m, const qn_leaf *leaf, double (*rows)[3][4]) {
+  const qn_composed *map = &m->maps.stack[m->maps.count - 1];
   const qn_ball *inverse = NULL;
   if (!map->shift_only) {
-    int state = qn_maps_inverse(&b->maps);
+    int state = qn_maps_inverse(&m->maps);
     if (state <= 0) {
       return state == 0 ? -1 : 0;
     }
-    inverse = b->maps.inverse;
+    inverse = m->maps.inverse;
   }
   qn_ball shift[3];
   for (int k = 0; k < 3; k++) {
@@ -235,9 +235,9 @@ static int rows_by_balls(qn_building *b, const qn_leaf *leaf, double (*rows)[3][
       return 0;
     }
   }
-  for (size_t h = 0; h < b->local.count; h++) {
-    for (size_t i = 0; i < rows_of(&b->local.halves[h]); i++) {
-      if (!row_by_balls(b->local.rows[h][i], inverse, shift, rows[h][i])) {
+  for (size_t h = 0; h < m->local.count; h++) {
+    for (size_t i = 0; i < rows_of(&m->local.halves[h]); i++) {
+      if (!row_by_balls(m->local.rows[h][i], inverse, shift, rows[h][i])) {
         return 0;
       }
     }
@@ -246,26 +246,26 @@ static int rows_by_balls(qn_building *b, const qn_leaf *leaf, double (*rows)[3][
 }
 
 /* The same in exact arithmetic. */
-static int rows_by_numbers(qn_building *b, const qn_leaf *leaf, double (*rows)[3][4], quoin_status *status) {
+static int rows_by_numbers(qn_maker *m, const qn_leaf *leaf, double (*rows)[3][4], quoin_status *status) {
   const qn_num *map;
-  *status = qn_maps_exact(&b->maps, &map);
+  *status = qn_maps_exact(&m->maps, &map);
   if (*status != QUOIN_OK) {
     return 0;
   }
-  qn_ctx *ctx = &b->maps.scratch;
+  qn_ctx *ctx = &m->maps.scratch;
   qn_mark mark = qn_arena_mark(&ctx->arena);
-  qn_half_form *halves = qn_arena_take(&ctx->arena, b->local.count * sizeof *halves);
+  qn_half_form *halves = qn_arena_take(&ctx->arena, m->local.count * sizeof *halves);
   int regular = 1;
   if (!halves) {
     *status = QUOIN_E_MEMORY;
   } else {
-    memcpy(halves, b->local.halves, b->local.count * sizeof *halves);
+    memcpy(halves, m->local.halves, m->local.count * sizeof *halves);
     qn_num point[4] = {QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ONE};
     for (int k = 0; k < 3; k++) {
       point[k] = qn_num_from_double(ctx, leaf->pivot[k]);
     }
-    regular = qn_map_forms(ctx, map, halves, b->local.count);
-    for (size_t h = 0; regular && h < b->local.count; h++) {
+    regular = qn_map_forms(ctx, map, halves, m->local.count);
+    for (size_t h = 0; regular && h < m->local.count; h++) {
       for (size_t i = 0; i < rows_of(&halves[h]); i++) {
         for (int j = 0; j < 3; j++) {
           rows[h][i][j] = shadow_of(halves[h].row[i][j]);
@@ -309,9 +309,9 @@ static int axis_of(const qn_num row[4]) {
 }
 
 /* The world axis to which the top map takes a local one, and the place on it of local x_axis = (shift - row[3]) / row[axis]. */
-static int world_place(qn_building *b, const qn_num row[4], int axis, qn_num shift, qn_num *at) {
-  const qn_composed *map = &b->maps.stack[b->maps.count - 1];
-  qn_ctx *ctx = &b->maps.scratch;
+static int world_place(qn_maker *m, const qn_num row[4], int axis, qn_num shift, qn_num *at) {
+  const qn_composed *map = &m->maps.stack[m->maps.count - 1];
+  qn_ctx *ctx = &m->maps.scratch;
   int world = 0;
   while (qn_num_is_zero(map->exact[4 * world + axis])) {
     world++;
@@ -322,30 +322,30 @@ static int world_place(qn_building *b, const qn_num row[4], int axis, qn_num shi
 }
 
 /* The key of a plane, 0 for one that is not aligned. An aligned plane also bounds the box, exactly. */
-static uint32_t key_of(qn_building *b, const qn_half_form *h, const double row[4], qn_leaf *leaf) {
+static uint32_t key_of(qn_maker *m, const qn_half_form *h, const double row[4], qn_leaf *leaf) {
   int axis = axis_of(h->row[0]);
-  if (axis < 0 || !b->maps.stack[b->maps.count - 1].aligned) {
+  if (axis < 0 || !m->maps.stack[m->maps.count - 1].aligned) {
     return 0;
   }
-  qn_ctx *ctx = &b->maps.scratch;
+  qn_ctx *ctx = &m->maps.scratch;
   qn_mark mark = qn_arena_mark(&ctx->arena);
   qn_num at;
-  int world = world_place(b, h->row[0], axis, QN_NUM_ZERO, &at);
+  int world = world_place(m, h->row[0], axis, QN_NUM_ZERO, &at);
   uint32_t key = UINT32_MAX;
   if (ctx->failed == QUOIN_OK) {
     if (at.kind == QN_NUM_SMALL && leaf->bounded) {
       draw_in(ctx, leaf, world, at, row[world] > 0);
     }
-    key = qn_key_of(b, world, at);
+    key = qn_key_of(m, world, at);
   }
   qn_arena_release(&ctx->arena, mark);
   return key;
 }
 
 /* An aligned ellipsoid or cylinder: s_i X_i^2 + ... <= -k bounds X_i by the root of -k / s_i, exactly where that is rational. */
-static void bound_by_body(qn_building *b, const qn_half_form *h, qn_leaf *leaf) {
-  qn_ctx *ctx = &b->maps.scratch;
-  if (h->kind != QN_QUADRIC_BODY || !b->maps.stack[b->maps.count - 1].aligned || !qn_num_is_zero(h->l) || qn_num_sign(h->k) >= 0 ||
+static void bound_by_body(qn_maker *m, const qn_half_form *h, qn_leaf *leaf) {
+  qn_ctx *ctx = &m->maps.scratch;
+  if (h->kind != QN_QUADRIC_BODY || !m->maps.stack[m->maps.count - 1].aligned || !qn_num_is_zero(h->l) || qn_num_sign(h->k) >= 0 ||
       qn_num_sign(h->s[0]) < 0 || qn_num_sign(h->s[1]) < 0 || qn_num_sign(h->s[2]) < 0) {
     return;
   }
@@ -363,8 +363,8 @@ static void bound_by_body(qn_building *b, const qn_half_form *h, qn_leaf *leaf) 
       continue;
     }
     qn_num one, other;
-    int world = world_place(b, h->row[i], axis, root, &one);
-    world_place(b, h->row[i], axis, qn_num_neg(ctx, root), &other);
+    int world = world_place(m, h->row[i], axis, root, &one);
+    world_place(m, h->row[i], axis, qn_num_neg(ctx, root), &other);
     int greater = qn_num_cmp(ctx, one, other) > 0;
     draw_in(ctx, leaf, world, greater ? one : other, 1);
     draw_in(ctx, leaf, world, greater ? other : one, 0);
@@ -382,29 +382,33 @@ static int is_convex(const qn_half_form *h) {
   return qn_num_sign(h->s[0]) >= 0 && qn_num_sign(h->s[1]) >= 0 && qn_num_sign(h->s[2]) >= 0;
 }
 
-static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[3][4], qn_leaf *leaf) {
-  quoin_scene *s = b->scene;
-  if (!qn_grow(b->mem, &s->halves, &b->half_capacity, s->half_count + 1) ||
-      !qn_grow(b->mem, &b->keys, &b->key_capacity, s->half_count + 1)) {
+int qn_batch_room(qn_maker *m) {
+  qn_batch *b = m->batch;
+  return qn_grow(m->mem, &b->halves, &b->half_capacity, b->half_count + 1) && qn_grow(m->mem, &b->keys, &b->key_capacity, b->half_count + 1);
+}
+
+static quoin_status add_half(qn_maker *m, const qn_half_form *h, double rows[3][4], qn_leaf *leaf) {
+  qn_batch *b = m->batch;
+  if (!qn_batch_room(m)) {
     return QUOIN_E_MEMORY;
   }
-  qn_half *out = &s->halves[s->half_count];
+  qn_half *out = &b->halves[b->half_count];
   *out = (qn_half){.role = h->role, .kind = (uint8_t)h->kind};
   uint32_t key = 0;
   if (h->kind == QN_PLANE) {
-    if (!qn_grow(b->mem, &s->planes, &b->plane_capacity, s->plane_count + 1) || (key = key_of(b, h, rows[0], leaf)) == UINT32_MAX) {
+    if (!qn_grow(m->mem, &b->planes, &b->plane_capacity, b->plane_count + 1) || (key = key_of(m, h, rows[0], leaf)) == UINT32_MAX) {
       return QUOIN_E_MEMORY;
     }
-    out->shadow = (uint32_t)s->plane_count;
-    qn_plane_shadow *p = &s->planes[s->plane_count++];
+    out->shadow = (uint32_t)b->plane_count;
+    qn_plane_shadow *p = &b->planes[b->plane_count++];
     memcpy(p->n, rows[0], sizeof p->n);
     p->d = rows[0][3];
   } else {
-    if (!qn_grow(b->mem, &s->quadrics, &b->quadric_capacity, s->quadric_count + 1)) {
+    if (!qn_grow(m->mem, &b->quadrics, &b->quadric_capacity, b->quadric_count + 1)) {
       return QUOIN_E_MEMORY;
     }
-    out->shadow = (uint32_t)s->quadric_count;
-    qn_quadric_shadow *q = &s->quadrics[s->quadric_count++];
+    out->shadow = (uint32_t)b->quadric_count;
+    qn_quadric_shadow *q = &b->quadrics[b->quadric_count++];
     memcpy(q->row, rows, sizeof q->row);
     for (int i = 0; i < 3; i++) {
       q->s[i] = shadow_of(h->s[i]);
@@ -412,31 +416,31 @@ static quoin_status add_half(qn_building *b, const qn_half_form *h, double rows[
     q->l = shadow_of(h->l);
     q->k = shadow_of(h->k);
     if (leaf->bounded) {
-      bound_by_body(b, h, leaf);
+      bound_by_body(m, h, leaf);
     }
   }
-  b->keys[s->half_count++] = key;
+  b->keys[b->half_count++] = key;
   return QUOIN_OK;
 }
 
-quoin_status qn_leaf_add(qn_building *b, qn_leaf *leaf, qn_form_result *result) {
-  const qn_local *l = &b->local;
-  choose_pivot(b, leaf);
-  qn_ctx *ctx = &b->maps.scratch;
+quoin_status qn_leaf_add(qn_maker *m, qn_leaf *leaf, qn_form_result *result) {
+  const qn_local *l = &m->local;
+  choose_pivot(m, leaf);
+  qn_ctx *ctx = &m->maps.scratch;
   qn_mark mark = qn_arena_mark(&ctx->arena);
   double(*rows)[3][4] = qn_arena_take(&ctx->arena, l->count * sizeof *rows);
   quoin_status status = rows ? QUOIN_OK : QUOIN_E_MEMORY;
   int done = 0;
-  if (status == QUOIN_OK && (done = rows_by_balls(b, leaf, rows)) == 0) {
-    done = rows_by_numbers(b, leaf, rows, &status);
+  if (status == QUOIN_OK && (done = rows_by_balls(m, leaf, rows)) == 0) {
+    done = rows_by_numbers(m, leaf, rows, &status);
   }
   *result = done < 0 ? QN_FORM_EMPTY : QN_FORM_OK;
-  leaf->half0 = (uint32_t)b->scene->half_count;
+  leaf->half0 = (uint32_t)m->batch->half_count;
   leaf->halves = (uint32_t)l->count;
   leaf->convex = 1;
   for (size_t h = 0; status == QUOIN_OK && done > 0 && h < l->count; h++) {
     leaf->convex &= (uint8_t)is_convex(&l->halves[h]);
-    status = b->scene->half_count < UINT32_MAX / 2 ? add_half(b, &l->halves[h], rows[h], leaf) : QUOIN_E_LIMIT;
+    status = m->batch->half_count < UINT32_MAX / 2 ? add_half(m, &l->halves[h], rows[h], leaf) : QUOIN_E_LIMIT;
   }
   qn_arena_release(&ctx->arena, mark);
   return status;

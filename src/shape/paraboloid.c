@@ -69,6 +69,6 @@ void qn_paraboloid_uv(const double *args, size_t n, const double placement[6], u
   double d[3];
   qn_frame_point(placement, x, d);
   double share = qn_norm2(d[0] / args[1], d[1] / args[2]);
-  uv[0] = qn_turn(d[0], d[1]);
+  uv[0] = qn_turn(d[0] / args[1], d[1] / args[2]);
   uv[1] = qn_clamp01(role == QUOIN_BODY ? share * share : share); /* on the body the share of the height */
 }

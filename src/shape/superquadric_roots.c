@@ -1,104 +1,28 @@
-/* Roots of a superquadric along X(t) = O + t D, isolated with certainty and refined (design S10).
+/* Roots of a superquadric along X(t) = O + t D, isolated with certainty and refined (design S10). In tiers, as for quadrics:
+   searches in doubles with error bounds, which may say that they cannot tell, then the careful one.
 
-   The function is G(X(t)) - 1 (super.h), which has the sign of the inside-outside function less 1. A sign is taken in doubles
-   with its
-   bound, and in MPFR with QN_SUPER_BITS bits where the bound leaves it open.
-
-   1. Clip. The solid lies in the box |X_i| <= 1: outside the box's stretch [a, b] of the line, widened a little, G > 1.
-   2. e, n <= 2: G is a norm, so convex along the line: none or two roots. The minimum is bracketed by the sign of the slope until a
-      point inside is found, or the tangent's lower bound is positive, or the bracket is narrow.
-   3. Else: the places where the line meets a coordinate plane divide it into pieces on each of which |X_i| is linear. A piece [c,
-   d] is
-      settled when G over the corners of its box (G grows with each |X_i|) is above 1 or below it, or when its slope is of one
-      sign; else it is
-      halved, down to QN_SUPER_NARROW of the solid's size. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X| + phi_p(X/Y) d|Y|) +
-      phi_q(rho/Z) d|Z|, each phi monotone.
-   What comes out is a list of places with certain signs in increasing order; two neighbours of different signs bracket a root.
-   4. Refinement: Newton from one end, kept in the bracket, halving it when a step does not; then the bracket is closed from both
-   sides to the
-      nearest places with certain signs. */
+   First the line is clipped: the solid lies in the box |X_i| <= 1, and outside the box's stretch [a, b] of the line, widened a
+   little, f > 1. With an exponent beyond 2 the solid lies in its hull, that of the exponent 2, and the stretch is narrowed to
+   that. */
 #include "shape/interval.h"
-#include "shape/outward.h"
 #include "shape/prim.h"
-#include "shape/super.h"
-
-enum { MOST_NODES = 4000, STACK = 256, MOST_SIGNS = 256 };
-
-typedef struct curve {
-  qn_super s;
-  double O[3], D[3], size; /* size: the longest stretch of such a line in the box */
-  qn_super_mp mp;
-  int mp_ready;
-} curve;
-
-typedef struct sample { double value, slope, error, slope_error; } sample;
-
-static double along(const curve *c, int i, double t) { return fma(c->D[i], t, c->O[i]); }
-
-static sample look(const curve *c, double t) {
-  double X[3] = {along(c, 0, t), along(c, 1, t), along(c, 2, t)}, g[3];
-  sample r;
-  r.value = qn_super_norm(&c->s, X, g, &r.error) - 1;
-  r.slope = g[0] * c->D[0] + g[1] * c->D[1] + g[2] * c->D[2];
-  double size = fabs(g[0] * c->D[0]) + fabs(g[1] * c->D[1]) + fabs(g[2] * c->D[2]);
-  /* The slope at a point a few u away, which is as good where G is convex: p does not enter (see find_inside). */
-  r.slope_error = (QN_SUPER_SLOPE(c->s.e, 0) + QN_SUPER_SLOPE(c->s.n, 0)) * size;
-  return r;
-}
-
-static int sample_sign(sample s) { return s.value > s.error || s.value == INFINITY ? 1 : s.value < -s.error ? -1 : 0; }
-
-/* Signs of G - 1 and of its slope in MPFR. */
-static int fine_sign(curve *c, double t, int *slope) {
-  qn_super_mp *mp = &c->mp;
-  if (!c->mp_ready) {
-    qn_super_mp_init(mp, QN_SUPER_BITS);
-    mpfr_set_d(mp->e, c->s.e, MPFR_RNDN);
-    mpfr_set_d(mp->n, c->s.n, MPFR_RNDN);
-    qn_super_mp_exponents(mp);
-    c->mp_ready = 1;
-  }
-  for (int i = 0; i < 3; i++) {
-    mpfr_set_d(mp->x[i], c->D[i], MPFR_RNDN);
-    mpfr_mul_d(mp->x[i], mp->x[i], t, MPFR_RNDN); /* exact: 106 bits */
-    mpfr_add_d(mp->x[i], mp->x[i], c->O[i], MPFR_RNDN);
-  }
-  int sign = qn_super_mp_sign(mp);
-  if (slope) {
-    mpfr_set_zero(mp->t, 1);
-    for (int i = 0; i < 3; i++) {
-      mpfr_mul_d(mp->w, mp->g[i], c->D[i], MPFR_RNDN);
-      mpfr_add(mp->t, mp->t, mp->w, MPFR_RNDN);
-    }
-    *slope = mpfr_nan_p(mp->t) ? 0 : mpfr_sgn(mp->t);
-  }
-  return sign;
-}
-
-static int sign_at(curve *c, double t) {
-  int s = sample_sign(look(c, t));
-  return s ? s : fine_sign(c, t, NULL);
-}
-
-static double middle(double a, double b) { return a + 0.5 * (b - a); }
-static int between(double a, double t, double b) { return a < t && t < b; }
+#include "shape/super_line.h"
 
 /* The stretch of the line in the box |X_i| <= 1, widened so that its ends are outside for certain, where it has a width at all. */
-static int clip(const curve *c, double *a, double *b) {
+static int clip(const double O[3], const double D[3], double *a, double *b) {
   double lo = -INFINITY, hi = INFINITY;
   for (int i = 0; i < 3; i++) {
-    double o = c->O[i], d = fabs(c->D[i]);
+    double o = O[i], d = fabs(D[i]);
     if (d == 0) {
       if (fabs(o) > 1) {
         return 0;
       }
       continue;
     }
-    if (c->D[i] < 0) {
-      o = -o;
-    }
-    lo = fmax(lo, qn_step_down(qn_step_down(-1 - o) / d));
-    hi = fmin(hi, qn_step_up(qn_step_up(1 - o) / d));
+    o = D[i] < 0 ? -o : o;
+    double l = qn_step_down(qn_step_down(-1 - o) / d), h = qn_step_up(qn_step_up(1 - o) / d);
+    lo = l > lo ? l : lo;
+    hi = h < hi ? h : hi;
   }
   if (!(lo <= hi) || isinf(lo) || isinf(hi)) {
     return 0;
@@ -109,318 +33,38 @@ static int clip(const curve *c, double *a, double *b) {
   return 1;
 }
 
-/* --- refinement --------------------------------------------------------------------------------------------------- */
-
-/* Closes [lo, hi] round t from both sides: the nearest places with certain signs at growing distances from `near`. */
-static void close_in(curve *c, double *lo, double *hi, int sign_lo, double t, double near) {
-  for (double d = near; t - d > *lo; d *= 4) {
-    int s = sample_sign(look(c, t - d));
-    if (s == sign_lo) {
-      *lo = t - d;
-      break;
+static qn_super_answer quick(const qn_super_line *c, double *a, double *b, double (*roots)[2], size_t max, size_t *count) {
+  if (c->e <= 2 && c->n <= 2) {
+    double found[2][2];
+    qn_super_answer answer = qn_super_convex(c, *a, *b, found);
+    for (*count = 0; answer == QN_SUPER_FOUND && *count < 2 && *count < max; ++*count) {
+      roots[*count][0] = found[*count][0], roots[*count][1] = found[*count][1];
     }
-    if (s == -sign_lo) {
-      *hi = t - d;
-    }
+    return answer;
   }
-  for (double d = near; t + d < *hi; d *= 4) {
-    int s = sample_sign(look(c, t + d));
-    if (s == -sign_lo) {
-      *hi = t + d;
-      break;
-    }
-    if (s == sign_lo) {
-      *lo = t + d;
-    }
+  qn_super_line hull;
+  if (!qn_super_line_make(fmin(c->e, 2), fmin(c->n, 2), c->O, c->D, &hull)) {
+    return QN_SUPER_UNSURE;
   }
+  if (qn_super_narrow(&hull, a, b) == QN_SUPER_NONE) {
+    return QN_SUPER_NONE;
+  }
+  return qn_super_pieces(c, *a, *b, roots, max, count);
 }
-
-/* The bracket [lo, hi], signs sign_lo and -sign_lo at its ends, made narrow. */
-static void refine(curve *c, double *lo, double *hi, int sign_lo) {
-  double t = sign_lo > 0 ? *lo : *hi, width = *hi - *lo; /* from outside: where G is convex Newton does not overshoot */
-  int slow = 0;
-  sample s = look(c, t);
-  for (;;) {
-    double next = t - s.value / s.slope;
-    if (!between(*lo, next, *hi) || slow > 2) {
-      next = middle(*lo, *hi);
-      slow = 0;
-    }
-    if (!between(*lo, next, *hi)) {
-      return; /* neighbours */
-    }
-    double moved = fabs(next - t), near;
-    t = next;
-    s = look(c, t);
-    int sign = sample_sign(s);
-    if (sign) {
-      *(sign == sign_lo ? lo : hi) = t;
-    }
-    near = fmax(QN_STEP * fabs(t) + QN_U * QN_U * c->size, 2 * s.error / fabs(s.slope));
-    if (sign == 0 || moved <= near) {
-      if (!(near < *hi - *lo)) { /* no slope to judge by */
-        near = QN_STEP * fabs(t) + QN_SUPER_FINE * c->size;
-      }
-      close_in(c, lo, hi, sign_lo, t, near);
-      break;
-    }
-    if (*hi - *lo > 0.5 * width) {
-      slow++;
-    } else {
-      width = *hi - *lo;
-      slow = 0;
-    }
-  }
-  while (*hi - *lo > fmax(QN_SUPER_FINE * c->size, 2 * QN_STEP * fabs(*hi))) { /* too flat for doubles */
-    double m = middle(*lo, *hi);
-    if (!between(*lo, m, *hi)) {
-      break;
-    }
-    int sign = sign_at(c, m);
-    if (sign == 0) { /* the root itself, for all that can be told */
-      double l = nextafter(m, -INFINITY), h = nextafter(m, INFINITY);
-      if (l > *lo && sign_at(c, l) == sign_lo) {
-        *lo = l;
-      }
-      if (h < *hi && sign_at(c, h) == -sign_lo) {
-        *hi = h;
-      }
-      break;
-    }
-    *(sign == sign_lo ? lo : hi) = m;
-  }
-}
-
-/* --- convex ------------------------------------------------------------------------------------------------------- */
-
-/* A place inside, when there is one that is not hidden in a narrow bracket, and places outside to its left and right.
-
-   At a point with G > 1 + error a computed slope is the slope at a point a few u away, so the tangent bounds G from below within
-   less than the error:
-   G > 1 on the side to which it rises, and on the other side too when it does not sink to 1 before the bracket's end. Where the
-   value is
-   open, value and slope are MPFR's. */
-static int find_inside(curve *c, double a, double b, double *inside, double *left, double *right) {
-  double least = QN_SUPER_NARROW * c->size;
-  *left = a;
-  *right = b;
-  for (;;) {
-    double m = middle(a, b);
-    if (!between(a, m, b)) {
-      return 0;
-    }
-    sample s = look(c, m);
-    int sign = sample_sign(s), slope = s.slope > s.slope_error ? 1 : s.slope < -s.slope_error ? -1 : 0;
-    if (sign == 0 || (sign > 0 && slope == 0)) {
-      int fine_slope;
-      int fine = fine_sign(c, m, &fine_slope);
-      slope = sign ? slope ? slope : fine_slope : fine_slope;
-      sign = sign ? sign : fine;
-    } else if (sign > 0 && s.value - 2 * s.error > (fabs(s.slope) + s.slope_error) * fmax(b - m, m - a)) {
-      return 0;
-    }
-    if (sign < 0) {
-      *inside = m;
-      return 1;
-    }
-    if (slope == 0) {
-      return 0; /* the minimum itself, not inside */
-    }
-    if (slope > 0) {
-      b = m;
-      *right = sign > 0 ? m : *right;
-    } else {
-      a = m;
-      *left = sign > 0 ? m : *left;
-    }
-    if (b - a <= least) { /* a root pair as wide as this would have held an end */
-      return 0;
-    }
-  }
-}
-
-/* --- not convex --------------------------------------------------------------------------------------------------- */
-
-/* Places with certain signs, in increasing order, those between two of one sign left out. */
-typedef struct places {
-  double t[MOST_SIGNS];
-  int sign[MOST_SIGNS];
-  size_t count;
-} places;
-
-static void place(places *p, double t, int sign) {
-  if (!sign) {
-    return;
-  }
-  size_t n = p->count;
-  if (n >= 2 && p->sign[n - 1] == sign && p->sign[n - 2] == sign) {
-    p->t[n - 1] = t;
-  } else if (n < MOST_SIGNS) {
-    p->t[n] = t;
-    p->sign[n] = sign;
-    p->count = n + 1;
-  }
-}
-
-/* phi at a ratio, moved by its error upward (way 1) or downward (-1). */
-static double slope_bound(double e, double p, double ratio, int way) {
-  double phi = ratio < INFINITY ? qn_super_slope(e, p, ratio) : p > 1 ? 0 : INFINITY;
-  double error = ratio > 0 && ratio < INFINITY ? QN_SUPER_SLOPE(e, p) * (1 + fabs(log(ratio))) : 0;
-  if (way > 0) {
-    return phi + phi * error + DBL_MIN; /* it may have underflown */
-  }
-  return phi < INFINITY ? fmax(0, phi - phi * error - DBL_MIN) : DBL_MAX;
-}
-
-/* phi over ratios b/a with a, b in intervals of numbers >= 0. */
-static qn_interval slope_range(double e, double p, qn_interval a, qn_interval b) {
-  if (p == 1) {
-    return (qn_interval){1, 1};
-  }
-  qn_interval open = p > 1 ? (qn_interval){0, 1} : (qn_interval){1, INFINITY};
-  if (!(QN_SUPER_SLOPE(e, p) < QN_SUPER_SLOPE_MOST)) {
-    return open;
-  }
-  double least = a.hi > 0 ? b.lo / a.hi : b.lo > 0 ? INFINITY : 0, most = a.lo > 0 ? b.hi / a.lo : INFINITY;
-  double f = slope_bound(e, p, least, p > 1 ? 1 : -1), g = slope_bound(e, p, most, p > 1 ? -1 : 1);
-  qn_interval r = p > 1 ? (qn_interval){g, f} : (qn_interval){f, g};
-  return r.lo == r.lo && r.hi == r.hi ? r : open;
-}
-
-static qn_interval scaled(qn_interval a, double d) {
-  return d == 0 ? (qn_interval){0, 0} : qn_interval_mul(a, (qn_interval){d, d});
-}
-
-typedef enum verdict { SPLIT, ABOVE, BELOW, MONOTONE } verdict;
-
-static verdict judge(const curve *c, double a, double b) {
-  qn_interval x[3];
-  double lo[3], hi[3], g[3], error, rate[3];
-  int crossing = 0;
-  for (int i = 0; i < 3; i++) {
-    double l = along(c, i, a), h = along(c, i, b);
-    int cross = (l < 0 && h > 0) || (l > 0 && h < 0);
-    crossing |= cross;
-    rate[i] = l < 0 || h < 0 ? -c->D[i] : c->D[i]; /* d|X_i|/dt on a piece of one sign */
-    l = fabs(l), h = fabs(h);
-    lo[i] = cross ? 0 : fmin(l, h);
-    hi[i] = fmax(l, h);
-    x[i] = (qn_interval){lo[i], hi[i]};
-  }
-  double least = qn_super_norm(&c->s, lo, g, &error);
-  if (least - error > 1) {
-    return ABOVE;
-  }
-  double most = qn_super_norm(&c->s, hi, g, &error);
-  if (most + error < 1) {
-    return BELOW;
-  }
-  if (crossing) {
-    return SPLIT;
-  }
-  double rho_error, flat_lo[3] = {lo[0], lo[1], 0}, flat_hi[3] = {hi[0], hi[1], 0};
-  qn_interval rho;
-  rho.lo = qn_super_norm(&c->s, flat_lo, g, &rho_error);
-  rho.lo = fmax(0, rho.lo - rho_error);
-  rho.hi = qn_super_norm(&c->s, flat_hi, g, &rho_error);
-  rho.hi += rho_error;
-  double e = c->s.e, p = c->s.p, n = c->s.n, q = c->s.q;
-  qn_interval dx = scaled(slope_range(e, p, x[0], x[1]), rate[0]), dy = scaled(slope_range(e, p, x[1], x[0]), rate[1]);
-  qn_interval flat = qn_interval_mul(slope_range(n, q, rho, x[2]), qn_interval_add(dx, dy));
-  qn_interval slope = qn_interval_add(flat, scaled(slope_range(n, q, x[2], rho), rate[2]));
-  return slope.lo > 0 || slope.hi < 0 ? MONOTONE : SPLIT;
-}
-
-static void settle(curve *c, double a, double b, places *p) {
-  struct { double a, b; } stack[STACK];
-  size_t depth = 0;
-  double least = QN_SUPER_NARROW * c->size;
-  stack[depth].a = a, stack[depth].b = b;
-  depth++;
-  for (int nodes = 0; depth; nodes++) {
-    depth--;
-    a = stack[depth].a, b = stack[depth].b;
-    double m = middle(a, b);
-    verdict v = judge(c, a, b);
-    if (v == SPLIT && b - a > least && between(a, m, b) && nodes < MOST_NODES && depth + 2 <= STACK) {
-      stack[depth].a = m, stack[depth].b = b;
-      stack[depth + 1].a = a, stack[depth + 1].b = m;
-      depth += 2;
-      continue;
-    }
-    int sa = v == ABOVE ? 1 : v == BELOW ? -1 : sign_at(c, a), sb = v == ABOVE ? 1 : v == BELOW ? -1 : sign_at(c, b);
-    place(p, a, sa);
-    place(p, b, sb);
-  }
-}
-
-static void general(curve *c, double a, double b, places *p) {
-  double cut[8];
-  size_t n = 0;
-  cut[n++] = a;
-  for (int i = 0; i < 3; i++) { /* either side of each coordinate plane, where the sign is certain: fma rounds once */
-    if (c->D[i] != 0) {
-      double t = -c->O[i] / c->D[i], l = t, h = t;
-      for (int k = 0; k < 4 && along(c, i, l) * c->D[i] >= 0; k++) {
-        l = qn_step_down(l);
-      }
-      for (int k = 0; k < 4 && along(c, i, h) * c->D[i] <= 0; k++) {
-        h = qn_step_up(h);
-      }
-      if (between(a, l, b) && between(a, h, b)) {
-        cut[n++] = l;
-        cut[n++] = h;
-      }
-    }
-  }
-  cut[n++] = b;
-  for (size_t i = 1; i < n; i++) {
-    for (size_t k = i; k > 0 && cut[k] < cut[k - 1]; k--) {
-      double t = cut[k];
-      cut[k] = cut[k - 1];
-      cut[k - 1] = t;
-    }
-  }
-  place(p, a, 1);
-  for (size_t i = 0; i + 1 < n; i++) {
-    if (cut[i] < cut[i + 1]) {
-      settle(c, cut[i], cut[i + 1], p);
-    }
-  }
-  place(p, b, 1);
-}
-
-/* ------------------------------------------------------------------------------------------------------------------ */
 
 size_t qn_superquadric_roots(double e, double n, const double O[3], const double D[3], double (*roots)[2], size_t max) {
-  curve c = {.s = qn_super_make(e, n), .O = {O[0], O[1], O[2]}, .D = {D[0], D[1], D[2]}};
   double a, b;
-  if (!clip(&c, &a, &b)) {
+  if (!clip(O, D, &a, &b)) {
     return 0;
   }
-  c.size = fmin(2 / fmax(fabs(D[0]), fmax(fabs(D[1]), fabs(D[2]))), DBL_MAX);
-  places p = {.count = 0};
-  if (e <= 2 && n <= 2) {
-    double inside, left, right;
-    if (find_inside(&c, a, b, &inside, &left, &right)) {
-      place(&p, left, 1);
-      place(&p, inside, -1);
-      place(&p, right, 1);
-    }
-  } else {
-    general(&c, a, b, &p);
-  }
+  qn_super_line c;
   size_t count = 0;
-  for (size_t i = 0; i + 1 < p.count && count < max; i++) {
-    if (p.sign[i] != p.sign[i + 1]) {
-      roots[count][0] = p.t[i];
-      roots[count][1] = p.t[i + 1];
-      refine(&c, &roots[count][0], &roots[count][1], p.sign[i]);
-      count++;
+  if (qn_super_line_make(e, n, O, D, &c)) {
+    switch (quick(&c, &a, &b, roots, max, &count)) {
+    case QN_SUPER_NONE: return 0;
+    case QN_SUPER_FOUND: return count;
+    case QN_SUPER_UNSURE: break;
     }
   }
-  if (c.mp_ready) {
-    qn_super_mp_free(&c.mp);
-  }
-  return count;
+  return qn_super_careful(e, n, O, D, a, b, roots, max);
 }

@@ -93,7 +93,7 @@ static void see_directions(qn_packet *p) {
       dlow = least(dlow, low), dhigh = most(dhigh, high);
       extremes(p->inv[i] + k * SUB_LANES, &low, &high);
       /* Widened away from the true range in either direction, so that the products' rounding cannot matter. */
-      p->imin[i][k] = down(low - fabs(low) * 0x1p-20), p->imax[i][k] = up(high + fabs(high) * 0x1p-20);
+      p->imin[i][k] = down(low - fabs(low) * QN_WIDE_FLOAT), p->imax[i][k] = up(high + fabs(high) * QN_WIDE_FLOAT);
       finite &= isfinite(p->imin[i][k]) && isfinite(p->imax[i][k]);
     }
     p->dabs[i] = most(fabs(dlow), fabs(dhigh));
@@ -101,7 +101,8 @@ static void see_directions(qn_packet *p) {
   }
 }
 
-static void facts(walk *w, qn_packet *p) {
+/* Returns 0 when the rays' numbers are not in the range that the bounds are for. */
+static int facts(walk *w, qn_packet *p) {
   packet_facts *f = &w->f;
   f->p = p;
   if (p->tile == QN_TILE_DIRECTIONS) {
@@ -116,6 +117,7 @@ static void facts(walk *w, qn_packet *p) {
     see_directions(p);
   }
   double reach2 = 0;
+  int in_range = p->dd_min >= 1 / (QN_WIDE_LARGEST * QN_WIDE_LARGEST) && p->dd_max <= QN_WIDE_LARGEST * QN_WIDE_LARGEST;
   for (int i = 0; i < 3; i++) {
     w->all_omin[i] = INFINITY, w->all_omax[i] = -INFINITY, w->all_imin[i] = INFINITY, w->all_imax[i] = -INFINITY;
     for (int k = 0; k < SUBS; k++) {
@@ -124,8 +126,10 @@ static void facts(walk *w, qn_packet *p) {
     }
     double far = farthest(f, i, 0) + most(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
     reach2 += far * far;
+    in_range &= farthest(f, i, 0) <= QN_WIDE_LARGEST && w->all_imin[i] >= -QN_WIDE_LARGEST && w->all_imax[i] <= QN_WIDE_LARGEST;
   }
-  f->reach = 1.001 * sqrt(reach2 / p->dd_min);
+  f->reach = QN_WIDE_SLACK * sqrt(reach2 / p->dd_min);
+  return in_range;
 }
 
 #endif

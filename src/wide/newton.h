@@ -44,7 +44,8 @@ typedef struct spot { vd y[3], low[3], g[3], S, D; } spot;
 QN_INLINE void find_coordinate(const surface_numbers *f, const rough_places *at, int j, spot *s) {
   s->y[j] = s->low[j] = s->g[j] = vset(0);
   if (f->axes >> j & 1) {
-    vdd w = vtwo_difference(at->o[j], number_of(f, QN_ROUNDING_PIVOT + j)), m = vtwo_product(at->t, at->d[j]), x = vtwo_sum(w.hi, m.hi);
+    vdd w = vtwo_difference(at->o[j], number_of(f, QN_ROUNDING_PIVOT + j)), m = vtwo_product(at->t, at->d[j]);
+    vdd x = vtwo_sum(w.hi, m.hi);
     s->y[j] = x.hi, s->low[j] = vadd(vadd(w.lo, m.lo), x.lo);
     s->S = vadd(s->S, vadd(vabs(w.hi), vabs(m.hi))), s->D = vadd(s->D, vabs(at->d[j]));
   }

@@ -99,7 +99,7 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
     if (!vbits(m)) {
       continue;
     }
-    vstore(w->tolerance + o, vmax(vload(w->tolerance + o), vmul(s.error, vset(2))));
+    note_errors(w, g, s.error, m);
     vd start = vload(from->t + o), pstart = vload(from->p + o);
     order(w, g, start, pstart, s.b, s.pb, &m, &ahead, &equal); /* not yet over */
     m = vand(m, ahead);
@@ -214,15 +214,15 @@ static uint64_t term_leave(walk *w, const qn_nterm *t, lanes *at, uint64_t mask)
   return held;
 }
 
-/* Bounds of the places of some lanes, as floats. */
-QN_INLINE void span_of(const lanes *at, uint64_t mask, float *first, float *last) {
+/* Bounds of the true places of some lanes, as floats. */
+QN_INLINE void span_of(const walk *w, const lanes *at, uint64_t mask, float *first, float *last) {
   vd low = vset(INFINITY), high = vset(-INFINITY);
   for (int g = 0; g < QN_GROUPS; g++) {
     unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
     if (in) {
       vm m = vmask(in);
-      vd t = vload(at->t + g * QN_W);
-      low = vpick(m, vmin(low, t), low), high = vpick(m, vmax(high, t), high);
+      vd t = vload(at->t + g * QN_W), error = vload(w->tolerance + g * QN_W);
+      low = vpick(m, vmin(low, vsub(t, error)), low), high = vpick(m, vmax(high, vadd(t, error)), high);
     }
   }
   _Alignas(64) double x[QN_W], y[QN_W];
@@ -230,16 +230,16 @@ QN_INLINE void span_of(const lanes *at, uint64_t mask, float *first, float *last
   for (int i = 1; i < QN_W; i++) {
     x[0] = least(x[0], x[i]), y[0] = most(y[0], y[i]);
   }
-  *first = down(x[0] - fabs(x[0]) * 0x1p-20), *last = up(y[0] + fabs(y[0]) * 0x1p-20);
+  *first = down(x[0]), *last = up(y[0]);
 }
-static float latest(const lanes *at, uint64_t mask) {
+static float latest(const walk *w, const lanes *at, uint64_t mask) {
   float first, last;
-  span_of(at, mask, &first, &last);
+  span_of(w, at, mask, &first, &last);
   return last;
 }
-static float earliest(const lanes *at, uint64_t mask) {
+static float earliest(const walk *w, const lanes *at, uint64_t mask) {
   float first, last;
-  span_of(at, mask, &first, &last);
+  span_of(w, at, mask, &first, &last);
   return first;
 }
 
@@ -259,7 +259,7 @@ static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mas
   }
   struct { float near; uint32_t node; } stack[STACK];
   int top = 0;
-  float start = earliest(from, mask), end = latest(best, mask);
+  float start = earliest(w, from, mask), end = latest(w, best, mask);
   stack[top].near = -INFINITY, stack[top++].node = un->root;
   while (top) {
     top--;
@@ -272,7 +272,7 @@ static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mas
       uint64_t in = subs_meet(w, t) & mask & ~w->unsure;
       if (in) {
         term_enter(w, t, from, in, best, &found);
-        end = latest(best, mask & ~w->unsure);
+        end = latest(w, best, mask & ~w->unsure);
       }
       continue;
     }
@@ -352,7 +352,7 @@ static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask
     }
     const qn_bvh_node *n = &w->normal->nodes[node];
     w->counts.nodes++;
-    unsigned in = 0xff;
+    unsigned in = fle(fload(n->min[0]), fload(n->max[0])); /* slots in use */
     for (int i = 0; i < 3; i++) {
       in &= fle(fload(n->min[i]), fset(s.all_max[i])) & fle(fset(s.all_min[i]), fload(n->max[i]));
     }
@@ -377,8 +377,11 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.tied = 0, w.counts = (qn_wide_counts){0};
-  facts(&w, packet);
   hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
+  if (!facts(&w, packet)) { /* numbers for which no bound is given */
+    hits->unsure = packet->live;
+    return;
+  }
   const qn_union *root = &scene->normal.unions[scene->normal.root];
   if (root->wide == 0) { /* nothing near: no ray need be made */
     _Alignas(32) float near[8];
@@ -402,6 +405,14 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     start.p[j] = payload_bits(packet->on[j] | QN_STARTS_ON);
   }
   uint64_t mask = packet->live, leaving = 0;
+  for (int g = 0; g < QN_GROUPS; g++) { /* no stretch is left: of one point, or out of the range of ends */
+    unsigned empty = QN_ALL_BITS & ~vbits(vlt(vload(start.t + g * QN_W), vload(best.t + g * QN_W))) & (unsigned)(mask >> (g * QN_W));
+    for (; empty; empty &= empty - 1) {
+      unsigned k = (unsigned)(g * QN_W) + qn_trailing_zeros(empty);
+      mask &= ~((uint64_t)1 << k);
+      w.unsure |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
+    }
+  }
   uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
   for (int g = 0; g < QN_GROUPS; g++) {
@@ -423,6 +434,10 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
         w.unsure |= (uint64_t)1 << k;
       }
     }
+  }
+  for (uint64_t m = found & ~w.unsure; m; m &= m - 1) { /* beyond reach planes may have been taken for what they are not: something else is there */
+    unsigned k = qn_trailing_zeros(m);
+    w.unsure |= (uint64_t)!(fabs(best.t[k]) <= w.f.reach) << k;
   }
   hits->unsure = w.unsure & packet->live;
   hits->tied = w.tied;

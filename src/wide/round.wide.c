@@ -19,7 +19,8 @@ static const int AXES[QN_ROUNDING_KINDS] = {1, 3, 2, 3, 3};
 /* --- groups that share a surface ------------------------------------------------------------------------------------ */
 
 /* Groups g to end - 1; kind is a constant wherever this is called. */
-QN_INLINE uint64_t run_of(qn_rounding_kind kind, const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g, int end, double *t) {
+QN_INLINE uint64_t run_of(qn_rounding_kind kind, const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g,
+                          int end, double *t) {
   const surface_numbers f = {{surface->k}, TERMS[kind], (1u << AXES[kind]) - 1, 1};
   const double *o[3], *d[3];
   uint64_t sure = 0;
@@ -91,9 +92,11 @@ QN_INLINE uint64_t gathered_of(qn_rounding_kind kind, const gathered *list, cons
 }
 
 static uint64_t round_gathered(const gathered lists[QN_ROUNDING_KINDS], const qn_packet *p, const qn_packet_hits *hits, double *t) {
-  return gathered_of(QN_ROUNDING_AXIS, &lists[QN_ROUNDING_AXIS], p, hits, t) | gathered_of(QN_ROUNDING_PLANE, &lists[QN_ROUNDING_PLANE], p, hits, t) |
+  return gathered_of(QN_ROUNDING_AXIS, &lists[QN_ROUNDING_AXIS], p, hits, t) |
+         gathered_of(QN_ROUNDING_PLANE, &lists[QN_ROUNDING_PLANE], p, hits, t) |
          gathered_of(QN_ROUNDING_ROUND, &lists[QN_ROUNDING_ROUND], p, hits, t) |
-         gathered_of(QN_ROUNDING_DIAGONAL, &lists[QN_ROUNDING_DIAGONAL], p, hits, t) | gathered_of(QN_ROUNDING_FULL, &lists[QN_ROUNDING_FULL], p, hits, t);
+         gathered_of(QN_ROUNDING_DIAGONAL, &lists[QN_ROUNDING_DIAGONAL], p, hits, t) |
+         gathered_of(QN_ROUNDING_FULL, &lists[QN_ROUNDING_FULL], p, hits, t);
 }
 
 /* --- a packet -------------------------------------------------------------------------------------------------------- */
@@ -114,10 +117,10 @@ typedef struct second_surface {
   unsigned bits;
 } second_surface;
 
-uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
-                             uint64_t *made);
-uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
-                             uint64_t *made) {
+uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
+                             double t[QN_LANES], uint64_t *made);
+uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
+                             double t[QN_LANES], uint64_t *made) {
   uint64_t sure = 0, first_lanes = 0;
   const qn_rounding *shared[GROUPS + 1] = {NULL};
   second_surface seconds[GROUPS];

@@ -36,7 +36,7 @@ QN_INLINE uint64_t payload_of(uint32_t surface, uint32_t leaf, uint64_t larger) 
 /* What is known of a packet before any piece is met. */
 typedef struct packet_facts {
   const qn_packet *p;
-  double reach; /* no |t| of interest is larger; infinite in unbounded scenes */
+  double reach; /* no |t| at which a ray is in the solid's box is larger; infinite in unbounded scenes */
 } packet_facts;
 
 QN_INLINE double least(double a, double b) { return b < a ? b : a; }
@@ -47,7 +47,8 @@ QN_INLINE double farthest(const packet_facts *f, int i, double pivot) { return m
 /* A stretch of QN_W rays in a piece. Lanes not in `hit` and not in `unsure` surely miss. */
 typedef struct stretch { vd a, b, pa, pb, error; vm hit, unsure; } stretch;
 
-QN_INLINE vm near_each_other(vd x, vd y, vd tolerance) { return vle(vabs(vsub(x, y)), tolerance); }
+/* Lanes of which it is not certain that x and y are apart. */
+QN_INLINE vm near_each_other(vd x, vd y, vd tolerance) { return vandnot(vmask(QN_ALL_BITS), vlt(tolerance, vabs(vsub(x, y)))); }
 
 /* --- sphere ------------------------------------------------------------------------------------------------------ */
 typedef struct sphere_constants { vd cx, cy, cz, r2, ed_low, ed_high, error, pa, pb; } sphere_constants;
@@ -60,15 +61,15 @@ QN_INLINE void sphere_prepare(const packet_facts *f, const qn_piece_sphere *s, s
     H += y * f->p->dabs[i];
   }
   double r = sqrt(s->r2), d = sqrt(f->p->dd_max);
-  /* m = y - (y.d / d.d) d: each coordinate within delta; lanes with |m| > 2r are sure misses while delta < r/8. */
-  double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d / f->p->dd_min) + s->off);
+  /* | |m^| - |m| | <= delta with m = y - (y.d / d.d) d from the true centre; lanes with |m^| > 2r are sure misses while delta < r/8. */
+  double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d / f->p->dd_min) + s->off) + QN_WIDE_TINY;
   double ed = delta < r / 8 ? 8 * r * delta + 3 * delta * delta + QN_WIDE_ROUND * QN_U * 5 * s->r2 : INFINITY;
   double solved = QN_WIDE_SHY * ed;
-  double s_error = ed / sqrt(solved * f->p->dd_max); /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > solved; ed/(2 sqrt solved), doubled */
+  double root_error = ed / sqrt(solved * f->p->dd_min); /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > solved; twice what it is */
   k->cx = vset(s->centre[0]), k->cy = vset(s->centre[1]), k->cz = vset(s->centre[2]);
   k->r2 = vset(s->r2);
   k->ed_low = vset(-ed), k->ed_high = vset(solved);
-  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) / f->p->dd_min + 2 * s_error * sqrt(f->p->dd_max / f->p->dd_min));
+  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) / f->p->dd_min + 2 * root_error + QN_WIDE_TINY);
   k->pa = vset(payload_bits(payload_of(s->surface, s->head.leaf, 0)));
   k->pb = vset(payload_bits(payload_of(s->surface, s->head.leaf, QN_LARGER_ROOT)));
 }
@@ -101,10 +102,21 @@ QN_INLINE void plane_prepare(const packet_facts *f, const double pivot[3], const
     k->n[i] = vset(n[i]);
   }
   k->d = vset(d);
-  k->en = vset(QN_WIDE_ROUND * QN_U * en);
+  k->en = vset(QN_WIDE_ROUND * QN_U * en + QN_WIDE_TINY);
   k->eden = vset(QN_WIDE_ROUND * QN_U * eden);
-  k->steep = vset(0x1p-24 * eden);
+  k->steep = vset(QN_WIDE_STEEP * eden);
   k->px = vset(payload_bits(payload_of(surface, leaf, 0)));
+}
+
+/* Of the lanes that do not cross the plane, or only so slantwise that it is not solved: those that surely do not meet it within reach are in
+   or out by num's sign, the others unsure. A slope is exactly 0 where each of its terms is: then there is no end to the reach. */
+QN_INLINE void plane_beside(const packet_facts *f, const plane_constants *k, const vd d[3], vd num, vd den, vm crosses, stretch *s) {
+  const vd zero = vset(0);
+  vd terms = vadd(vadd(vabs(vmul(k->n[0], d[0])), vabs(vmul(k->n[1], d[1]))), vabs(vmul(k->n[2], d[2])));
+  vd drift = vadd(k->en, vpick(vlt(zero, terms), vmul(vadd(vabs(den), k->eden), vset(f->reach)), zero));
+  vm in = vlt(num, vsub(zero, drift)), out = vandnot(vlt(drift, num), crosses);
+  s->unsure = vandnot(vor(s->unsure, vandnot(vandnot(s->hit, crosses), in)), out);
+  s->hit = vandnot(s->hit, out);
 }
 
 /* Meets s with the half-space; y: origins from the pivot. */
@@ -112,16 +124,13 @@ QN_INLINE void plane_meet(const packet_facts *f, const plane_constants *k, const
   const vd zero = vset(0), far = vset(QN_FAR), one = vset(1);
   vd num = vfma(k->n[0], y[0], vfma(k->n[1], y[1], vfma(k->n[2], y[2], k->d)));
   vd den = vfma(k->n[0], d[0], vfma(k->n[1], d[1], vmul(k->n[2], d[2])));
-  vd size = vabs(den);
-  vm crosses = vlt(k->steep, size);
+  vm crosses = vlt(k->steep, vabs(den));
+  if (vbits(crosses) != QN_ALL_BITS) {
+    plane_beside(f, k, d, num, den, crosses, s);
+  }
   vd inv = vdiv(one, vpick(crosses, den, one));
   vd t = vsub(zero, vmul(num, inv));
-  vd error = vmul(vfma(vabs(t), k->eden, k->en), vmul(vabs(inv), vset(1 + 0x1p-10)));
-  /* Parallel, or so nearly that within reach the plane is not met: in or out by the sign of num. */
-  vd drift = vadd(k->en, vpick(vlt(zero, size), vmul(vadd(size, k->eden), vset(f->reach)), zero));
-  vm in = vlt(num, vsub(zero, drift)), out = vlt(drift, num);
-  s->hit = vandnot(s->hit, vandnot(out, crosses));
-  s->unsure = vandnot(vor(s->unsure, vandnot(vandnot(vandnot(s->hit, crosses), in), out)), vandnot(out, crosses));
+  vd error = vmul(vfma(vabs(t), k->eden, k->en), vmul(vabs(inv), vset(QN_WIDE_SLACK)));
   s->error = vmax(s->error, vpick(crosses, error, zero));
   vm enters = vand(crosses, vlt(den, zero)), leaves = vandnot(crosses, enters);
   vd two = vmul(s->error, vset(2));
@@ -132,11 +141,12 @@ QN_INLINE void plane_meet(const packet_facts *f, const plane_constants *k, const
   s->b = vpick(sooner, tb, s->b), s->pb = vpick(sooner, k->px, s->pb);
 }
 
-/* After all parts are met: a stretch needs positive length, surely. */
+/* After all parts are met: a stretch needs positive length, surely. What a part was unsure of does not matter when the others leave nothing:
+   it could only take more away. */
 QN_INLINE void stretch_settle(stretch *s) {
   vd two = vmul(s->error, vset(2)), length = vsub(s->b, s->a);
   vm none = vlt(length, vsub(vset(0), two)), some = vlt(two, length);
-  s->unsure = vor(s->unsure, vandnot(vandnot(s->hit, some), none));
+  s->unsure = vandnot(vor(s->unsure, vandnot(s->hit, some)), none);
   s->hit = vandnot(vand(s->hit, some), s->unsure);
 }
 
@@ -147,7 +157,7 @@ QN_INLINE void box_prepare(const packet_facts *f, const qn_piece_box *b, box_con
   for (int i = 0; i < 3; i++) {
     double size = most(fabs(b->lo[i]), fabs(b->hi[i])) + farthest(f, i, 0);
     k->lo[i] = vset(b->lo[i]), k->hi[i] = vset(b->hi[i]);
-    k->en[i] = vset(QN_WIDE_ROUND * QN_U * size + 2 * b->off);
+    k->en[i] = vset(QN_WIDE_ROUND * QN_U * size + 2 * b->off + QN_WIDE_TINY);
     k->plo[i] = vset(payload_bits(payload_of(b->surface[2 * i], b->head.leaf, 0)));
     k->phi[i] = vset(payload_bits(payload_of(b->surface[2 * i + 1], b->head.leaf, 0)));
   }
@@ -166,7 +176,7 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
     vd t0 = vmul(low, inv), t1 = vmul(high, inv);
     a[i] = vpick(down, t1, t0), b[i] = vpick(down, t0, t1);
     pa[i] = vpick(down, k->phi[i], k->plo[i]), pb[i] = vpick(down, k->plo[i], k->phi[i]);
-    s.error = vmax(s.error, vmul(vmul(k->en[i], vabs(inv)), vset(1 + 0x1p-10)));
+    s.error = vmax(s.error, vmul(vmul(k->en[i], vabs(inv)), vset(QN_WIDE_SLACK)));
     if (vbits(flat)) { /* along the slab: in it, out of it, or too near to tell */
       vm out = vor(vlt(k->en[i], low), vlt(high, vsub(zero, k->en[i])));
       vm in = vand(vlt(low, vsub(zero, k->en[i])), vlt(k->en[i], high));
@@ -201,10 +211,12 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
 
 /* --- quadric body ------------------------------------------------------------------------------------------------ */
 typedef struct body_constants {
-  vd row[3][4], s[3], l, k, reach2, ed_low, ed_high, ea, flat, gap, slope, eh_far, ec_far, plow, phigh;
-  int sound; /* 0: the bounds say nothing here, every lane is unsure */
+  vd row[3][4], s[3], l, k, reach2, far2, ed_low, ed_high, ea, eh, ec, flat, gap, slow, steep, plow, phigh;
+  int sound;  /* 0: the bounds say nothing here, every lane is unsure */
+  int linear; /* a = 0 in every lane, exactly */
 } body_constants;
 
+/* reach: no place of the leaf has a larger |X|. */
 QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const double row[3][4], const double s[3], double l, double k0, double reach,
                             uint32_t surface, uint32_t leaf, body_constants *k) {
   double omega = 0, delta[3], D = 0;
@@ -229,27 +241,97 @@ QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const 
     C += fabs(s[i]) * R * R;
     S += fabs(s[i]);
   }
-  /* X is within e of O + t0 D for the t0 that was computed, whatever its error: only the shift's own rounding counts. It is at
-     most c (omega + D |t0|), and |t0| <= 4 (omega + R) / D' where D' is the least length of D; that is left to `slope` below. */
-  double e = c * 8 * (omega + R);
-  double ea = c * A, eh = c * H + e * D * S + c * fabs(l) * delta[2], ec = c * C + 2 * S * R * e + S * e * e + 2 * fabs(l) * e;
-  double ed = 2 * H * eh + eh * eh + A * ec + C * ea + ea * ec + c * (H * H + A * C);
+  /* Each coordinate of X is within e of O + t0 D for the very t0 that was computed: only the move's own rounding counts, which grows with |t0| and so
+     as |D| shrinks; lanes with |D|^2 <= QN_WIDE_SLOW D^2 are not solved. */
+  double e = QN_WIDE_MOVE * c * (omega + R) + QN_WIDE_TINY;
+  double ea = c * A, eh = c * H + e * D * S, ec = c * C + 2 * S * R * e + S * e * e + 2 * fabs(l) * e;
+  double ed = QN_WIDE_SLACK * (2 * H * eh + eh * eh + A * ec + C * ea + ea * ec + c * (H * H + A * C)) + QN_WIDE_TINY * QN_WIDE_TINY;
   double solved = QN_WIDE_SHY * ed;
-  k->sound = isfinite(ed) && ed > 0;
+  k->sound = isfinite(ed) && e <= R / 8;
+  k->linear = A == 0 && l != 0;
   k->l = vset(l), k->k = vset(k0);
-  k->reach2 = vset(R * R);
+  k->reach2 = vset(R * R), k->far2 = vset(4 * R * R * QN_WIDE_SLACK);
   k->ed_low = vset(-ed), k->ed_high = vset(solved);
-  k->ea = vset(ea);
-  k->flat = vset(0x1p-20 * A);
-  k->gap = vset(eh + 2 * ed / sqrt(solved) + c * (2 * H + sqrt(A * C)));
-  k->slope = vset(0x1p-12 * D * D);
-  k->eh_far = vset(eh), k->ec_far = vset(ec);
+  k->ea = vset(ea), k->eh = vset(eh), k->ec = vset(ec);
+  k->flat = vset(QN_WIDE_FLAT * A);
+  k->gap = vset(QN_WIDE_SLACK * (eh + 2 * ed / sqrt(solved) + c * (2 * H + sqrt(A * C))));
+  k->slow = vset(QN_WIDE_SLOW * D * D);
+  if (k->linear) { /* h = l D_2 alone */
+    k->eh = vset(c * fabs(l) * delta[2]), k->steep = vset(QN_WIDE_STEEP * fabs(l) * delta[2]);
+  }
   k->plow = vset(payload_bits(payload_of(surface, leaf, 0)));
   k->phigh = vset(payload_bits(payload_of(surface, leaf, QN_LARGER_ROOT)));
 }
 
-QN_INLINE void body_meet(const packet_facts *f, const body_constants *k, const vd y[3], const vd d[3], stretch *s) {
-  const vd zero = vset(0), far = vset(QN_FAR), near = vset(-QN_FAR), one = vset(1);
+/* What a body leaves of a stretch, before it is met: the part from ta to tb; lanes that surely miss the leaf; lanes that it cannot tell. */
+typedef struct body_part { vd ta, tb, pa, pb, error; vm out, bad; } body_part;
+
+/* The lanes of `flat`, whose square term is too small to divide by. Where the constant outweighs the rest all over the part of the ray that can be in
+   the leaf, |t - t0| <= v, they are in or out by its sign; a stretch that is elsewhere already misses the leaf. */
+QN_INLINE void body_flat(const body_constants *k, vd t0, vd a, vd h, vd c, vd length2, vm flat, const stretch *s, body_part *part) {
+  const vd zero = vset(0);
+  vd v = vsqrt(vdiv(k->far2, length2));
+  vd drift = vfma(vfma(vadd(vabs(a), k->ea), v, vmul(vset(2), vadd(vabs(h), k->eh))), v, k->ec);
+  vm in = vlt(c, vsub(zero, drift)), out = vlt(drift, c);
+  vm elsewhere = vor(vlt(vadd(t0, v), s->a), vlt(s->b, vsub(t0, v)));
+  out = vand(flat, vor(out, elsewhere));
+  part->out = vor(part->out, out);
+  part->bad = vor(part->bad, vandnot(vandnot(flat, in), out));
+}
+
+/* a = 0: one root, which has index 0. */
+QN_INLINE void body_line(const body_constants *k, vd t0, vd h, vd c, vd length2, const stretch *s, body_part *part) {
+  const vd zero = vset(0), one = vset(1);
+  vm solved = vlt(k->steep, vabs(h)), rises = vand(solved, vlt(zero, h));
+  vd inv = vdiv(vset(0.5), vpick(solved, h, one)), r = vmul(c, inv), t = vsub(t0, r);
+  vd error = vmul(vfma(vmul(vset(2), vabs(r)), k->eh, k->ec), vmul(vabs(inv), vset(QN_WIDE_SLACK)));
+  part->error = vpick(solved, vfma(vabs(t0), vset(8 * QN_U), error), zero);
+  part->tb = vpick(rises, t, part->tb), part->pb = k->plow;
+  part->ta = vpick(vandnot(solved, rises), t, part->ta);
+  vm beside = vandnot(vmask(QN_ALL_BITS), solved);
+  if (vbits(beside)) {
+    body_flat(k, t0, zero, h, c, length2, beside, s, part);
+  }
+}
+
+/* A body that opens is outside its roots: the part before the first or after the second, whichever the rest of the leaf leaves. Where it leaves both, that is
+   not for wide code. */
+QN_INLINE void body_split(const body_constants *k, vd low, vd high, vd two, vm split, const stretch *s, body_part *part) {
+  vm before = vlt(s->a, vsub(low, two)), after = vlt(vadd(high, two), s->b);
+  vm not_before = vlt(vadd(low, two), s->a), not_after = vlt(s->b, vsub(high, two));
+  vm only_before = vand(split, vand(before, not_after)), only_after = vand(split, vand(after, not_before));
+  part->out = vor(part->out, vand(split, vand(not_before, not_after)));
+  part->bad = vor(part->bad, vandnot(split, vor(vor(only_before, only_after), vand(not_before, not_after))));
+  part->tb = vpick(only_before, low, part->tb), part->pb = vpick(only_before, k->plow, part->pb);
+  part->ta = vpick(only_after, high, part->ta), part->pa = vpick(only_after, k->phigh, part->pa);
+}
+
+QN_INLINE void body_roots(const body_constants *k, vd t0, vd a, vd h, vd c, vd length2, const stretch *s, body_part *part) {
+  const vd zero = vset(0), one = vset(1);
+  vd disc = vsub(vmul(h, h), vmul(a, c));
+  vm flat = vle(vabs(a), k->flat), real = vandnot(vlt(k->ed_high, disc), flat), none = vandnot(vlt(disc, k->ed_low), flat);
+  vm opens = vlt(a, zero);
+  part->bad = vor(part->bad, vandnot(vmask(QN_ALL_BITS), vor(flat, vor(real, none))));
+  part->out = vor(part->out, vandnot(none, opens));
+  vd inv = vdiv(one, vpick(real, a, one)), root = vsqrt(vpick(real, disc, zero));
+  vd r0 = vmul(vsub(zero, vadd(h, root)), inv), r1 = vmul(vsub(root, h), inv);
+  vd low = vadd(t0, vmin(r0, r1)), high = vadd(t0, vmax(r0, r1)), size = vabs(inv);
+  vd error = vfma(vmul(k->ea, size), vmul(vset(2), vmax(vabs(r0), vabs(r1))), vmul(k->gap, size));
+  part->error = vpick(real, vfma(vabs(t0), vset(8 * QN_U), error), zero);
+  vm between = vandnot(real, opens), split = vand(vand(real, opens), s->hit);
+  part->ta = vpick(between, low, part->ta), part->tb = vpick(between, high, part->tb);
+  if (vbits(split)) {
+    body_split(k, low, high, vmul(vset(2), vmax(s->error, part->error)), split, s, part);
+  }
+  flat = vandnot(flat, part->bad);
+  if (vbits(flat)) {
+    body_flat(k, t0, a, h, c, length2, flat, s, part);
+  }
+}
+
+QN_INLINE void body_meet(const body_constants *k, const vd y[3], const vd d[3], stretch *s) {
+  const vd zero = vset(0), one = vset(1);
+  const vm all = vmask(QN_ALL_BITS);
   if (!k->sound) {
     s->unsure = vor(s->unsure, s->hit);
     return;
@@ -260,61 +342,34 @@ QN_INLINE void body_meet(const packet_facts *f, const body_constants *k, const v
     D[i] = vfma(k->row[i][0], d[0], vfma(k->row[i][1], d[1], vmul(k->row[i][2], d[2])));
   }
   vd length2 = vfma(D[0], D[0], vfma(D[1], D[1], vmul(D[2], D[2])));
-  vm slow = vle(length2, k->slope); /* D so much shorter than its packet's bound that e would not hold */
-  vd t0 = vsub(zero, vdiv(vfma(O[0], D[0], vfma(O[1], D[1], vmul(O[2], D[2]))), vpick(slow, one, length2)));
+  vm slow = vandnot(all, vlt(k->slow, length2));
+  length2 = vpick(slow, one, length2);
+  vd t0 = vsub(zero, vdiv(vfma(O[0], D[0], vfma(O[1], D[1], vmul(O[2], D[2]))), length2));
   for (int i = 0; i < 3; i++) {
     O[i] = vfma(t0, D[i], O[i]);
   }
   vd away2 = vfma(O[0], O[0], vfma(O[1], O[1], vmul(O[2], O[2])));
-  vm away = vlt(k->reach2, away2); /* twice out of reach: a sure miss of the whole leaf */
-  vd a = zero, h = vmul(k->l, D[2]), c = vfma(vadd(k->l, k->l), O[2], k->k);
+  body_part part = {.ta = vset(-QN_FAR), .tb = vset(QN_FAR), .pa = k->plow, .pb = k->phigh, .error = zero, .bad = slow};
+  part.out = vlt(k->reach2, away2); /* nowhere within twice the leaf's reach */
+  vd h = vmul(k->l, D[2]), c = vfma(vadd(k->l, k->l), O[2], k->k), a = zero;
   for (int i = 0; i < 3; i++) {
     vd sd = vmul(k->s[i], D[i]), so = vmul(k->s[i], O[i]);
     a = vfma(sd, D[i], a), h = vfma(sd, O[i], h), c = vfma(so, O[i], c);
   }
-  vd disc = vsub(vmul(h, h), vmul(a, c));
-  vm all = vmask(QN_ALL_BITS);
-  vm flat = vle(vabs(a), k->flat), real = vlt(k->ed_high, disc), none = vlt(disc, k->ed_low);
-  vm bad = vor(slow, vandnot(vandnot(all, vor(real, none)), flat));
-  /* Flat: no root within reach when the constant outweighs the rest; in or out by its sign. */
-  vd v = vadd(vset(f->reach), vabs(t0)); /* |t - t0| of interest */
-  vd drift = vadd(vfma(vfma(vadd(vabs(a), k->ea), v, vadd(vabs(vadd(h, h)), vadd(k->eh_far, k->eh_far))), v, k->ec_far), zero);
-  vm flat_in = vand(flat, vlt(c, vsub(zero, drift))), flat_out = vand(flat, vlt(drift, c));
-  bad = vor(bad, vandnot(vandnot(flat, flat_in), flat_out));
-  /* Roots. */
-  vm rooted = vandnot(real, flat);
-  vd inv = vdiv(one, vpick(flat, one, a)), root = vsqrt(vpick(real, disc, zero));
-  vd r0 = vsub(vmul(vsub(zero, vadd(h, root)), inv), zero), r1 = vmul(vsub(root, h), inv);
-  vd low = vadd(t0, vmin(r0, r1)), high = vadd(t0, vmax(r0, r1));
-  vd ia = vabs(inv);
-  vd error = vfma(vmul(k->ea, ia), vmul(vset(2), vmax(vabs(r0), vabs(r1))), vmul(k->gap, vmul(ia, vset(1 + 0x1p-8))));
-  error = vfma(vabs(t0), vset(8 * QN_U), error);
-  s->error = vmax(s->error, vpick(rooted, error, zero));
-  vd two = vmul(s->error, vset(2));
-  vm opens = vlt(a, zero); /* inside is outside the roots */
-  vm out = vor(vor(away, flat_out), vandnot(vandnot(none, flat), opens));
-  vm bounded = vandnot(rooted, opens), split = vand(rooted, opens);
-  s->hit = vandnot(s->hit, out);
-  vm clash = vmask(0);
-  /* Between the roots. */
-  vd ta = vpick(bounded, low, near), tb = vpick(bounded, high, far), pa = k->plow, pb = k->phigh;
-  clash = vor(clash, vand(bounded, vor(near_each_other(ta, s->a, two), near_each_other(tb, s->b, two))));
-  if (vbits(vand(split, s->hit))) { /* before the first root or after the second, whichever the rest of the leaf leaves; both: not for wide code */
-    vm before = vlt(s->a, vsub(low, two)), after = vlt(vadd(high, two), s->b);
-    vm not_before = vlt(vadd(low, two), s->a), not_after = vlt(s->b, vsub(high, two));
-    clash = vor(clash, vand(split, vand(before, after)));
-    clash = vor(clash, vandnot(split, vand(vor(before, not_before), vor(after, not_after))));
-    vm miss = vand(split, vand(not_before, not_after));
-    s->hit = vandnot(s->hit, miss);
-    vm only_before = vand(split, vand(before, not_after)), only_after = vand(split, vand(after, not_before));
-    clash = vor(clash, vor(vand(only_before, near_each_other(low, s->b, two)), vand(only_after, near_each_other(high, s->a, two))));
-    tb = vpick(only_before, low, tb), pb = vpick(only_before, k->plow, pb);
-    ta = vpick(only_after, high, ta), pa = vpick(only_after, k->phigh, pa);
+  if (k->linear) {
+    body_line(k, t0, h, c, length2, s, &part);
+  } else {
+    body_roots(k, t0, a, h, c, length2, s, &part);
   }
-  s->unsure = vand(vor(s->unsure, vor(bad, clash)), vandnot(all, away));
-  vm later = vlt(s->a, ta), sooner = vlt(tb, s->b);
-  s->a = vpick(later, ta, s->a), s->pa = vpick(later, pa, s->pa);
-  s->b = vpick(sooner, tb, s->b), s->pb = vpick(sooner, pb, s->pb);
+  part.out = vandnot(part.out, slow);
+  s->hit = vandnot(s->hit, part.out);
+  s->error = vmax(s->error, part.error);
+  vd two = vmul(s->error, vset(2));
+  vm tied = vor(vand(vlt(vset(-QN_FAR), part.ta), near_each_other(part.ta, s->a, two)), vand(vlt(part.tb, vset(QN_FAR)), near_each_other(part.tb, s->b, two)));
+  s->unsure = vandnot(vor(s->unsure, vand(s->hit, vor(part.bad, tied))), part.out);
+  vm later = vlt(s->a, part.ta), sooner = vlt(part.tb, s->b);
+  s->a = vpick(later, part.ta, s->a), s->pa = vpick(later, part.pa, s->pa);
+  s->b = vpick(sooner, part.tb, s->b), s->pb = vpick(sooner, part.pb, s->pb);
 }
 
 #endif

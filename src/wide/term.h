@@ -86,7 +86,7 @@ static stretch meet_solve(const walk *w, const meet_constants *k, uint32_t leaf,
     plane_meet(&w->f, &k->plane[i], y, d, &s);
   }
   for (int i = 0; i < k->bodies; i++) {
-    body_meet(&w->f, &k->body[i], y, d, &s);
+    body_meet(&k->body[i], y, d, &s);
   }
   stretch_settle(&s);
   return s;
@@ -106,7 +106,7 @@ QN_INLINE stretch piece_solve(const walk *w, const qn_piece_head *head, const pi
         plane_meet(&w->f, &k->round.cap[i], y, d, &s);
       }
     }
-    body_meet(&w->f, &k->round.body, y, d, &s);
+    body_meet(&k->round.body, y, d, &s);
     stretch_settle(&s);
     return s;
   }
@@ -118,13 +118,18 @@ QN_INLINE stretch piece_solve(const walk *w, const qn_piece_head *head, const pi
   return s;
 }
 
+/* Takes note of the errors of a stretch's ends, where it has ends. */
+QN_INLINE void note_errors(walk *w, int g, vd error, vm hit) {
+  double *tolerance = w->tolerance + g * QN_W;
+  vstore(tolerance, vmax(vload(tolerance), vpick(hit, vmul(error, vset(2)), vset(0))));
+}
+
 /* The later of two entries and the sooner of two exits. */
 static void stretch_meet(walk *w, int g, stretch *s, const stretch *o) {
   vm both = vand(s->hit, o->hit), before, equal;
   s->unsure = vor(vand(s->unsure, vor(o->hit, o->unsure)), vand(o->unsure, vor(s->hit, s->unsure)));
   s->error = vmax(s->error, o->error);
-  double *tolerance = w->tolerance + g * QN_W;
-  vstore(tolerance, vmax(vload(tolerance), vmul(s->error, vset(2))));
+  note_errors(w, g, s->error, both);
   order(w, g, s->a, s->pa, o->a, o->pa, &both, &before, &equal);
   s->a = vpick(before, o->a, s->a), s->pa = vpick(before, o->pa, s->pa);
   order(w, g, o->b, o->pb, s->b, s->pb, &both, &before, &equal);
@@ -153,6 +158,7 @@ static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out)
     }
     w->counts.leaves += t->leaves;
     stretch s = t->leaves ? piece_solve(w, head[0], &k[0], g) : whole_line();
+    s.hit = vand(s.hit, vmask(lanes_in)); /* the others are not to be given up here */
     for (uint32_t i = 1; i < t->leaves; i++) {
       piece_constants other;
       const qn_piece_head *h = i < READY ? head[i] : piece_at(w, leaves[i]);
@@ -162,8 +168,7 @@ static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out)
       stretch o = piece_solve(w, h, i < READY ? &k[i] : &other, g);
       stretch_meet(w, g, &s, &o);
     }
-    double *tolerance = w->tolerance + g * QN_W;
-    vstore(tolerance, vmax(vload(tolerance), vmul(s.error, vset(2))));
+    note_errors(w, g, s.error, s.hit);
     w->unsure |= (uint64_t)(vbits(s.unsure) & lanes_in) << (g * QN_W);
     int at = g * QN_W;
     vstore(out->a + at, s.a), vstore(out->b + at, s.b), vstore(out->pa + at, s.pa), vstore(out->pb + at, s.pb);

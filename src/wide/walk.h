@@ -7,7 +7,7 @@
 
 typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
 
-enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 256 };
+enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 7 * QN_BVH_DEPTH + 8 };
 
 /* How a packet's directions lie on an axis. */
 enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
@@ -44,15 +44,16 @@ QN_INLINE uint64_t eights(unsigned bits) {
 
 /* --- order --------------------------------------------------------------------------------------------------------- */
 
-static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd px, vd py, unsigned *equal) {
-  _Alignas(64) double x[QN_W], y[QN_W];
-  vstore(x, px), vstore(y, py);
+static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd apart, vd px, vd py, unsigned *equal) {
+  _Alignas(64) double x[QN_W], y[QN_W], gap[QN_W];
+  vstore(x, px), vstore(y, py), vstore(gap, apart);
   for (int i = 0; i < QN_W; i++) {
     if (near >> i & 1) {
       uint64_t a, b;
       memcpy(&a, &x[i], 8), memcpy(&b, &y[i], 8);
       const uint64_t who = (a | b) & QN_STARTS_ON ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
-      if ((a & who) == (b & who)) {
+      int nobody = (a & QN_NOBODY) == QN_NOBODY; /* both ends of the range, or no end at all */
+      if ((a & who) == (b & who) && !(nobody && gap[i] != 0)) {
         *equal |= 1u << i;
         w->tied |= (uint64_t)(!((a | b) & QN_STARTS_ON) && (a >> 32 & QN_LEAF_BITS) != (b >> 32 & QN_LEAF_BITS)) << (g * QN_W + i);
       } else {
@@ -65,7 +66,7 @@ static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd px, vd py,
 /* x before y, and x equal to y, for the lanes of `mask`; lanes in neither are after, or were given up: these leave `mask`. */
 QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *before, vm *equal) {
   vd tolerance = vload(w->tolerance + g * QN_W), gap = vsub(y, x);
-  vm sure = vlt(tolerance, gap), near = vle(vabs(gap), tolerance);
+  vm sure = vlt(tolerance, gap), near = vandnot(vmask(QN_ALL_BITS), vlt(tolerance, vabs(gap))); /* not certain to be apart */
   *before = vand(sure, *mask);
   unsigned close = vbits(vand(near, *mask));
   if (QN_LIKELY(close == 0)) {
@@ -73,7 +74,7 @@ QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *bef
     return;
   }
   unsigned same = 0;
-  settle_ties(w, g, close, px, py, &same);
+  settle_ties(w, g, close, gap, px, py, &same);
   *equal = vmask(same);
   *mask = vandnot(*mask, vmask(close & ~same));
 }
@@ -105,7 +106,8 @@ QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, 
     bmin[i] = fload(n->min[i]), bmax[i] = fload(n->max[i]);
     omin[i] = fset(w->all_omin[i]), omax[i] = fset(w->all_omax[i]), imin[i] = fset(w->all_imin[i]), imax[i] = fset(w->all_imax[i]);
   }
-  unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(start), fset(end), &when);
+  unsigned used = fle(bmin[0], bmax[0]); /* an empty slot's box is inverted, which the slabs alone may not see */
+  unsigned meets = used & slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(start), fset(end), &when);
   fstore(near, when);
   return meets;
 }

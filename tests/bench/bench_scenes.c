@@ -23,6 +23,7 @@ static const char USAGE[] =
     "  --threads N     default 1\n"
     "  --build-threads N   for the compilation; default 1, 0 all\n"
     "  --oracle N      rays judged by the oracle; default 100; 0 none. It reads MODEL.flat beside MODEL.csg\n"
+    "  --judge 0       nothing is judged: for further rounds\n"
     "  --csv FILE      appends rows: scene,path,threads,isa,rays,seconds,Mrays_s,judged,wrong,oracle_judged,oracle_wrong,nodes,leaves,sure,\n"
     "                  exact_signs,exact_orders,exact_rays,exact_roundings (the last seven a ray),read_s,compile_s,leaves_kept,bytes\n"
     "  --depths FILE   writes the first hits' parameters (doubles, row-major; infinite: none) of the whole grid\n"
@@ -32,7 +33,7 @@ enum { MOST_STRETCHES = 1024 }; /* of a ray that the oracle judges */
 
 typedef struct options {
   const char *model, *camera, *csv, *depths, *name, *paths;
-  unsigned size, threads, build_threads, rounds;
+  unsigned size, threads, build_threads, rounds, judge;
   double seconds;
   size_t oracle;
 } options;
@@ -318,7 +319,7 @@ static int usage(void) {
 }
 
 static int parse(int argc, char **argv, options *opt) {
-  *opt = (options){.threads = 1, .build_threads = 1, .rounds = 3, .seconds = 0.3, .oracle = 100};
+  *opt = (options){.threads = 1, .build_threads = 1, .rounds = 3, .judge = 1, .seconds = 0.3, .oracle = 100};
   for (int i = 1; i < argc; i++) {
     const char *a = argv[i], *v = i + 1 < argc ? argv[i + 1] : NULL;
     if (strncmp(a, "--", 2) != 0) {
@@ -336,6 +337,7 @@ static int parse(int argc, char **argv, options *opt) {
     else if (strcmp(a, "--threads") == 0) { opt->threads = (unsigned)strtoul(v, NULL, 10); }
     else if (strcmp(a, "--build-threads") == 0) { opt->build_threads = (unsigned)strtoul(v, NULL, 10); }
     else if (strcmp(a, "--oracle") == 0) { opt->oracle = strtoul(v, NULL, 10); }
+    else if (strcmp(a, "--judge") == 0) { opt->judge = (unsigned)strtoul(v, NULL, 10); }
     else if (strcmp(a, "--csv") == 0) { opt->csv = v; }
     else if (strcmp(a, "--depths") == 0) { opt->depths = v; }
     else if (strcmp(a, "--name") == 0) { opt->name = v; }
@@ -380,7 +382,7 @@ static int load(bench *b, quoin_scene **scene) {
 static void load_oracle(bench *b) {
   char flat[4096];
   const char *dot = strrchr(b->opt.model, '.');
-  if (b->opt.oracle && dot && snprintf(flat, sizeof flat, "%.*s.flat", (int)(dot - b->opt.model), b->opt.model) < (int)sizeof flat &&
+  if (b->opt.oracle && b->opt.judge && dot && snprintf(flat, sizeof flat, "%.*s.flat", (int)(dot - b->opt.model), b->opt.model) < (int)sizeof flat &&
       flat_read(flat, &b->flat)) {
     b->oracle = oracle_new(&b->flat);
   }
@@ -447,13 +449,13 @@ int main(int argc, char **argv) {
   }
   static reference references[RAY_KINDS][QUESTIONS]; /* by rays and question */
   for (size_t i = 0; i < PATH_COUNT; i++) {
-    verdict v;
+    verdict v = {0};
     if (!wanted(&b.opt, PATHS[i].name) || path_blocks(&PATHS[i], &b.job) == 0) {
       continue;
     }
     reference *of_rays = references[PATHS[i].rays];
     const reference *hits = PATHS[i].question == ASK_SPOTS && of_rays[ASK_HITS].answers ? &of_rays[ASK_HITS] : NULL;
-    if (!judge(&b, &PATHS[i], &of_rays[PATHS[i].question], hits, lanes[0], &v)) {
+    if (b.opt.judge && !judge(&b, &PATHS[i], &of_rays[PATHS[i].question], hits, lanes[0], &v)) {
       fputs("out of memory\n", stderr);
       return 1;
     }

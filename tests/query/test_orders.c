@@ -58,7 +58,10 @@ static fraction read_fraction(const char **at) {
     }
   }
   if (*s == '/') {
-    f.q = strtoll(s + 1, (char **)&s, 10);
+    f.q = 0;
+    for (s++; *s >= '0' && *s <= '9'; s++) {
+      f.q = 10 * f.q + (*s - '0');
+    }
   }
   f.p *= sign;
   *at = s;

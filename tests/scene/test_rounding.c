@@ -162,15 +162,16 @@ static void check_surface(const quoin_scene *scene, uint32_t surface) {
 static void test_numbers(void **state) {
   (void)state;
   static const char *const places[] = {
-    "union()", "translate([1e9, -0.1, 3])", "translate([0.1, 0.2, 0.3]) rotate([10, 20, 30])", "scale([1e-7, 1e-7, 1e-7])", "scale([1, 1e-40, 1])",
+    "union()", "translate([1e9, -0.1, 3])", "translate([0.1, 0.2, 0.3]) rotate([10, 20, 30])", "scale([1e-7, 1e-7, 1e-7])",
+    "scale([1, 1e-40, 1])",
     "translate([1e200, 0, 1e-200])", "multmatrix([[0.6, -0.8, 0, 1e5], [0.8, 0.6, 0, 1e-5], [0, 0, 1, 1]])", "rotate([0, 90, 0])",
   };
   for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
     char text[1000];
     snprintf(text, sizeof text,
-             "%s { sphere(1.5); translate([0.1, -3.7, 2]) sphere(1 / 3); cube([1, 2.5, 0.7]); cylinder(h = 2, r = 0.7); cylinder(h = 3, r1 = 0.2, r2 = 1.1);"
-             " rotate([0, 0, 31]) cylinder(h = 2, r = 1); rotate([17, 0, 0]) sphere(7); paraboloid(h = 2, r = 1); hyperboloid(h = 2, r = 1, rc = 0.6);"
-             " halfspace(n = [1, 2, -0.3], d = 0.1); multmatrix([[1, 0.3, 0, 0], [0, 1, 0.7, 0], [0.1, 0, 1.3, 0]]) sphere(0.9); }",
+             "%s { sphere(1.5); translate([0.1, -3.7, 2]) sphere(1 / 3); cube([1, 2.5, 0.7]); cylinder(h = 2, r = 0.7);"
+             " cylinder(h = 3, r1 = 0.2, r2 = 1.1); rotate([0, 0, 31]) cylinder(h = 2, r = 1); rotate([17, 0, 0]) sphere(7);"
+             " paraboloid(h = 2, r = 1); hyperboloid(h = 2, r = 1, rc = 0.6); halfspace(n = [1, 2, -0.3], d = 0.1); multmatrix([[1, 0.3, 0, 0], [0, 1, 0.7, 0], [0.1, 0, 1.3, 0]]) sphere(0.9); }",
              places[i]);
     quoin_scene *scene = scene_of(text);
     for (uint32_t s = 0; s < scene->surface_count; s++) {
@@ -178,8 +179,8 @@ static void test_numbers(void **state) {
     }
     quoin_scene_free(scene);
   }
-  print_message("axis %u plane %u round %u diagonal %u full %u none %u; %u coefficients, %u dropped\n", kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], kinds[5], checked,
-                dropped);
+  print_message("axis %u plane %u round %u diagonal %u full %u none %u; %u coefficients, %u dropped\n", kinds[0], kinds[1], kinds[2],
+                kinds[3], kinds[4], kinds[5], checked, dropped);
   assert_true(kinds[0] > 10 && kinds[1] > 10 && kinds[2] > 3 && kinds[3] > 10 && kinds[4] > 10 && checked > 1000 && dropped > 10);
 }
 

@@ -222,8 +222,8 @@ static void test_bounds(void **state) {
     one_vector(&c);
   }
   all(mpq_clear);
-  print_message("error/bound: p %.4f, slope %.4f, a %.4f; %u sound, %u not, %u planes, %u mixed, %u near, %u dropped\n", c.p, c.slope, c.a, c.sound, c.unsound, c.planes,
-                c.mixed, c.near, c.dropped);
+  print_message("error/bound: p %.4f, slope %.4f, a %.4f; %u sound, %u not, %u planes, %u mixed, %u near, %u dropped\n", c.p, c.slope,
+                c.a, c.sound, c.unsound, c.planes, c.mixed, c.near, c.dropped);
   assert_true(c.sound > 50000 && c.unsound > 50 && c.planes > 5000 && c.mixed > 5000 && c.near > 2000 && c.dropped > 5000);
   assert_true(c.p > 0.01 && c.slope > 0.02 && c.a > 0.5); /* the data come near what the bounds allow for */
 }

@@ -137,15 +137,17 @@ static void flush(stage *st, batch *b, census *c) {
     for (; sure; sure &= sure - 1) {
       unsigned i = qn_trailing_zeros(sure);
       if (memcmp(&t[i], &b->want[i], 8)) {
-        fail_msg("%s: surface %u: %a for %a; t %a error %a; o %a %a %a d %a %a %a", bodies[k]->name, b->hits.surface[i], t[i], b->want[i], b->hits.t[i],
-                 b->hits.error[i], b->packet.o[0][i], b->packet.o[1][i], b->packet.o[2][i], b->packet.d[0][i], b->packet.d[1][i], b->packet.d[2][i]);
+        const qn_packet *p = &b->packet;
+        fail_msg("%s: surface %u: %a for %a; t %a error %a; o %a %a %a d %a %a %a", bodies[k]->name, b->hits.surface[i], t[i],
+                 b->want[i], b->hits.t[i], b->hits.error[i], p->o[0][i], p->o[1][i], p->o[2][i], p->d[0][i], p->d[1][i], p->d[2][i]);
       }
     }
   }
   b->count = 0;
 }
 
-/* Adds the roots of a surface along a ray, each known to 2^-bits of itself or so. 0 when there are none. */
+/* Adds the roots of a surface along a ray, each known to 2^-bits of itself or so; with bits < 0 as the other root, and an error that
+   holds both. 0 when there are none. */
 static int add(stage *st, batch *b, census *c, uint32_t surface, const double o[3], const double d[3], int bits) {
   const qn_exact_surface *form = qn_scene_exact(st->scene, surface, NULL);
   assert_non_null(form);
@@ -168,6 +170,11 @@ static int add(stage *st, batch *b, census *c, uint32_t surface, const double o[
     b->want[i] = r;
     b->hits.t[i] = r + off * part();
     b->hits.error[i] = off + fabs(r) * 0x1p-50 + 0x1p-1074;
+    if (bits < 0) {
+      double other = qn_root_to_double(&st->ctx, (qn_root){&q, roots - 1 - which});
+      b->hits.t[i] = other;
+      b->hits.error[i] = fabs(other - r) + (fabs(r) + fabs(other)) * 0x1p-50;
+    }
     b->hits.surface[i] = surface;
     for (int j = 0; j < 3; j++) {
       b->packet.o[j][i] = o[j], b->packet.d[j][i] = d[j];
@@ -258,7 +265,7 @@ static void test_grazing(void **state) {
     uint32_t surface = (uint32_t)(next() % st.scene->surface_count);
     int k = (int)(next() % 52);
     const double o[3] = {-5 + part(), 1 - ldexp(1 + (double)(next() % 3), -k), one_in(2) ? 0 : surface == 1 ? 5 : -7}, d[3] = {1, 0, 0};
-    apart += (unsigned)add(&st, &b, &c, surface, o, d, one_in(2) ? k / 2 + (int)(next() % 20) : 40 + (int)(next() % 13));
+    apart += (unsigned)add(&st, &b, &c, surface, o, d, one_in(8) ? -1 : one_in(2) ? k / 2 + (int)(next() % 20) : 40 + (int)(next() % 13));
   }
   flush(&st, &b, &c);
   print_message("grazing: sure of %u of %u\n", c.sure[0], c.lanes);
@@ -278,7 +285,9 @@ static void test_middles(void **state) {
   for (int n = 0; n < 300; n++) {
     int k = (int)(next() % 1000), off = (int)(next() % 3) - 1, bits = 54 + (int)(next() % 100);
     char text[300];
-    snprintf(text, sizeof text, "p = 1 + %d * 2 ^ -53 + %d * 2 ^ -%d; halfspace(n = [1, 0, 0], d = p); sphere(p); cylinder(h = 1, r = p);", 2 * k + 1, off, bits);
+    snprintf(text, sizeof text,
+             "p = 1 + %d * 2 ^ -53 + %d * 2 ^ -%d; halfspace(n = [1, 0, 0], d = p); sphere(p); cylinder(h = 1, r = p);", 2 * k + 1, off,
+             bits);
     stage_open(&st, text);
     const double o[3] = {0, 0, 0.5}, z[3] = {0, 0, 0}, d[3] = {1, 0, 0};
     for (uint32_t s = 0; s < st.scene->surface_count; s++) {
@@ -298,8 +307,8 @@ static void test_range(void **state) {
   (void)state;
   static stage st;
   static batch b;
-  stage_open(&st, "translate([0.1, 0, 0]) sphere(1); rotate([0, 0, 31]) cube(1); scale([1, 1, 1e-9]) cylinder(h = 3, r = 1); halfspace(n = [1, 1e-30, 0], d = 0);"
-                  "translate([0, 0, 1e40]) sphere(1e-20);");
+  stage_open(&st, "translate([0.1, 0, 0]) sphere(1); rotate([0, 0, 31]) cube(1); scale([1, 1, 1e-9]) cylinder(h = 3, r = 1);"
+                  "halfspace(n = [1, 1e-30, 0], d = 0); translate([0, 0, 1e40]) sphere(1e-20);");
   census c = {0};
   b.count = 0;
   for (int n = 0; n < 20000; n++) {
@@ -364,7 +373,7 @@ static void test_memory(void **state) {
 
 int main(void) {
   find_bodies();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes), cmocka_unit_test(test_grazing), cmocka_unit_test(test_middles), cmocka_unit_test(test_range),
-                                     cmocka_unit_test(test_memory)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes), cmocka_unit_test(test_grazing), cmocka_unit_test(test_middles),
+                                     cmocka_unit_test(test_range), cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

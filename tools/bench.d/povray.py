@@ -61,9 +61,9 @@ def run(base, text, size, picture, limit):
     return seconds_in(done.stdout, 'Trace Time')
 
 
-def rays_a_second(base, seconds, limit=60, most=1024):
+def rays_a_second(base, seconds, limit=60, most=1024, size=64):
     """(rays a second, rays), growing the picture until a run takes `seconds`; None when not even 16 x 16 rays end in time."""
-    size, best = 64, None
+    best = None
     while True:
         spent = run(base, scene_text(base, None), size, None, limit)
         if spent is None:
@@ -74,7 +74,7 @@ def rays_a_second(base, seconds, limit=60, most=1024):
         best = size * size / max(spent, 1e-3), size * size
         if spent >= seconds or size >= most or size < 64:
             return best
-        size *= 2
+        size *= 2 if spent * 4 > seconds / 2 else 4
 
 
 def read_ppm16(path):

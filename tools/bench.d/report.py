@@ -103,17 +103,34 @@ def solvers(results, plots, page):
     return text
 
 
+TOO_WRONG = 0.01 # a peer that errs more often than this gets no rate
+
+
 def rate_cell(r):
+    """Of quoin, whose answers must all be right."""
     if r is None:
         return ''
-    rate = number(r['mrays'])
     wrong = number(r['oracle_wrong'] or 0) + number(r['wrong'] or 0)
-    judged = number(r['oracle_judged'] or 0) + number(r['judged'] or 0)
+    rate = number(r['mrays'])
+    return short(rate) if rate == rate and not wrong else 'WRONG'
+
+
+def peer_cell(r):
+    if r is None:
+        return ''
+    rate, judged, wrong = number(r['mrays']), number(r['oracle_judged'] or 0), number(r['oracle_wrong'] or 0)
     if rate != rate:
-        return 'no answer in time' if r['path'] == 'povray' else 'WRONG %d of %d' % (wrong, judged)
-    if wrong:
-        return '%s wrong a million' % short(1e6 * wrong / judged)
-    return short(rate)
+        return 'no answer in time'
+    if not judged:
+        return '%s (not judged)' % short(rate)
+    share = '%s a million of %d' % (short(1e6 * wrong / judged), judged)
+    return 'wrong: ' + share if wrong / judged > TOO_WRONG else '%s (%s)' % (short(rate), share if wrong else '0 of %d' % judged)
+
+
+def peer_rate(r):
+    """The rate that ratios may be taken of."""
+    judged = number(r['oracle_judged'] or 0) if r else 0
+    return number(r['mrays']) if r and not (judged and number(r['oracle_wrong'] or 0) / judged > TOO_WRONG) else math.nan
 
 
 def scenes(results, plots, page):
@@ -137,27 +154,19 @@ def scenes(results, plots, page):
     text += '\nWrong answers of quoin: %d of %d compared between paths and %d judged by the oracle.\n' % (wrong, judged, oracle)
     if peers:
         text += '\n### Beside other programs\n\nEmbree 3 (single precision, sphere points, packets from the same grid, blocks and order) and POV-Ray 3.7 (its own '
-        text += '"Trace Time", one thread, without start, parsing and output; a white picture without shading). In brackets: their wrong first hits a million, and how many were judged. '
+        text += '"Trace Time", one thread, without start, parsing and output; a white picture without shading). In brackets: their wrong first hits, and how many were judged; where more than a hundredth is wrong there is no rate. '
         text += 'A hit counts as wrong when there is none, or the reverse, or when it lies elsewhere by more than a thousandth (of the smallest radius for Embree, of the depth of the scene for POV-Ray). '
         text += 'Ratios are of quoin\'s `grid` and `grid-t`.\n\n'
 
-        def peer(n, p):
-            r = at.get((n, p))
-            if not r:
-                return ''
-            judged = number(r['oracle_judged'] or 0)
-            rate = number(r['mrays'])
-            return 'no answer in time' if rate != rate else '%s (%s of %d)' % (short(rate), short(1e6 * number(r['oracle_wrong']) / judged) if judged else '?', judged)
-
         def ratio(n, mine, theirs):
-            best = max([number(at[n, p]['mrays']) for p in theirs if (n, p) in at and number(at[n, p]['mrays']) > 0], default=math.nan)
+            best = max([peer_rate(at.get((n, p))) for p in theirs if peer_rate(at.get((n, p))) > 0], default=math.nan)
             return short(number(at[n, mine]['mrays']) / best) if (n, mine) in at else ''
 
         body = []
         packets = ['embree-packet16', 'embree-packet8']
         for n in names:
             if any((n, p) in at for p in peers):
-                body.append([n] + [peer(n, p) for p in peers] + [ratio(n, 'grid', packets), ratio(n, 'grid-t', packets), ratio(n, 'grid', ['povray']), ratio(n, 'grid-t', ['povray'])])
+                body.append([n] + [peer_cell(at.get((n, p))) for p in peers] + [ratio(n, 'grid', packets), ratio(n, 'grid-t', packets), ratio(n, 'grid', ['povray']), ratio(n, 'grid-t', ['povray'])])
         text += table(['scene'] + peers + ['grid / Embree packets', 'grid-t / Embree packets', 'grid / POV-Ray', 'grid-t / POV-Ray'], body)
     text += '\n### Counters\n\nA ray (or point): nodes visited, leaves solved, decisions certified by doubles; and a million rays: signs and orders taken exactly, rays handed to the exact path, roundings taken exactly. '
     text += 'A node or leaf that a packet of 64 meets counts once.\n\n'
@@ -188,6 +197,10 @@ def pictures(results, plots, page):
     if commands:
         text += 'Whole commands, from start to written PNG: `part50` at 800 x 600 with shadows and antialiasing (16 samples where neighbours differ), all cores.\n\n'
         text += table(['program', 'threads', 'seconds'], [[r['program'], r['threads'], short(number(r['seconds']))] for r in commands])
+    lines = read(results, 'text')
+    if lines:
+        text += '\nQuestions as text (decimals with six places), a file read and the answers written to a file; start and compilation taken off.\n\n'
+        text += table(['command', 'scene', 'threads', 'lines', 'million lines a second'], [[r['command'], r['scene'], r['threads'], r['lines'], short(number(r['mlines']))] for r in lines])
     return text
 
 
@@ -227,7 +240,7 @@ def growth(results, plots, page):
 
 def goals(results):
     """The goals that these measurements can judge."""
-    at = {(r['scene'], r['path']): number(r['mrays']) for r in read(results, 'scenes')}
+    at = {(r['scene'], r['path']): peer_rate(r) for r in read(results, 'scenes')}
     get = lambda n, p: at.get((n, p), math.nan)
     embree = lambda n: max((get(n, 'embree-' + p) for p in ('packet16', 'packet8') if get(n, 'embree-' + p) > 0), default=math.nan)
     rows = []
@@ -253,6 +266,11 @@ def goals(results):
     if 'quoin render' in whole:
         goal('part50 as a whole command: times 40 ms', 0.04 / whole['quoin render'], 1)
         goal('part50 as a whole command: times faster than POV-Ray', whole.get('povray', math.nan) / whole['quoin render'], 10)
+    best = {}
+    for r in read(results, 'text'):
+        best[r['command']] = max(best.get(r['command'], 0), number(r['mlines']))
+    for command, wanted in (('quoin query', 2), ('quoin ray', 1)):
+        goal('`%s` from text, million lines a second' % command, best.get(command, math.nan), wanted)
     return '## Goals\n\n' + table(['what', 'reached', 'goal', 'met'], rows) if rows else ''
 
 

@@ -13,8 +13,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import povray # noqa: E402
 import report # noqa: E402
+import scenes # noqa: E402
 
-SCENES = ['sphere1', 'plate1000', 'spheres10k', 'spheres1M', 'tree1024', 'tree1024fat', 'menger4', 'parts2000', 'plate100k', 'tree65k', 'coplanar']
+SCENES = ['sphere1', 'plate1000', 'spheres10k', 'spheres1M', 'tree1024', 'tree1024fat', 'menger4', 'parts2000', 'plate100k', 'tree65k', 'coplanar', 'part50', 'part50flush']
+QUICK_PATHS = ['single', 'tiles', 'grid-t', 'grid', 'intervals', 'intervals-exact', 'shadow', 'random-single', 'random', 'points']
 QUICK_SCENES = ['sphere1', 'plate1000', 'spheres10k', 'tree1024', 'menger4']
 SPHERES = ['sphere1', 'spheres10k', 'spheres1M']
 NO_POVRAY = ['spheres1M', 'parts2000', 'plate100k', 'tree65k'] # too large for it
@@ -29,6 +31,7 @@ class Bench:
         self.scenes = os.path.join(self.build, 'scenes')
         self.results = os.path.join(self.build, 'results')
         self.begin = time.monotonic()
+        self.povray_size, self.povray_gave_up = {}, set()
         os.makedirs(self.scenes, exist_ok=True)
         os.makedirs(self.results, exist_ok=True)
 
@@ -121,9 +124,9 @@ def scenes_part(b):
         for r in range(rounds):
             rows = []
             command = [b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
-                       '--oracle', (40 if a.quick else 200) if r == 0 else 0, '--build-threads', 0]
-            if a.path:
-                command += ['--paths', ','.join(a.path)]
+                       '--oracle', 40 if a.quick else 200, '--judge', int(r == 0), '--build-threads', 0]
+            if a.path or a.quick:
+                command += ['--paths', ','.join(a.path or QUICK_PATHS)]
             rows += b.scene_rows(command)
             if embree and name in SPHERES:
                 rows += b.scene_rows([embree, base + '.flat', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
@@ -134,22 +137,24 @@ def scenes_part(b):
         merged = merge(turns)
         everything += merged
         print_ratios(name, merged)
-    b.write('scenes', SCENE_FIELDS, everything)
+        b.write('scenes', SCENE_FIELDS, everything)
 
 
 def povray_rows(b, base, name, judging):
     """One row: its rate and, in the first round, how many of its first hits are wrong."""
     quick = b.args.quick
-    slow = base + '.povray-is-slow'
-    found = povray.rays_a_second(base, 0.2 if quick else 0.5, 10 if quick else 60)
+    if name in b.povray_gave_up:
+        return []
+    found = povray.rays_a_second(base, 0.2 if quick else 0.5, 10 if quick else 60, size=b.povray_size.get(name, 64))
     row = dict.fromkeys(SCENE_FIELDS, '')
     row.update(scene=name, path='povray', threads='1', isa='', wrong='0', judged='0', oracle_wrong='0', oracle_judged='0')
     if found is None:
-        open(slow, 'w').close()
+        b.povray_gave_up.add(name)
         row['mrays'] = 'nan'
         print('povray             gave up')
         return [row]
     rate, rays = found
+    b.povray_size[name] = round(rays**.5)
     row.update(mrays='%.5g' % (rate / 1e6), rays=str(rays), seconds='%.4g' % (rays / rate))
     size = 128
     if judging and size * size / rate < (5 if quick else 60):
@@ -180,6 +185,7 @@ PICTURE_SCENES = ['part50', 'spheres10k']
 LIGHT = [0.5, 0.2, -0.7] # the way it travels
 PICTURE_FIELDS = ['scene', 'program', 'setting', 'seconds', 'rms', 'threads', 'rays']
 COMMAND_FIELDS = ['scene', 'program', 'threads', 'width', 'height', 'seconds']
+TEXT_FIELDS = ['scene', 'command', 'threads', 'lines', 'seconds', 'mlines']
 ANTIALIASING = [('none', ['-A'])] + \
     [('%dx%d where over 0.1' % (r, r), ['+A0.1', '+AM1', '+R%d' % r]) for r in (2, 3, 4, 6, 9)] + \
     [('recursive, depth %d' % r, ['+A0.05', '+AM2', '+R%d' % r]) for r in (1, 2, 3, 4)]
@@ -226,6 +232,7 @@ def pictures_part(b):
     rows = b.rows(path, PICTURE_FIELDS)
     b.write('pictures', PICTURE_FIELDS, rows)
     commands_part(b, peers)
+    text_part(b)
 
 
 def commands_part(b, peers):
@@ -259,6 +266,46 @@ def commands_part(b, peers):
     b.write('commands', COMMAND_FIELDS, rows)
 
 
+def text_part(b):
+    """Points and rays as decimals through the command: lines a second, the time of a run with one line taken off."""
+    g = scenes.Random(7)
+    rows = []
+    for command, name, numbers in (('query', 'spheres10k', 3), ('ray', 'plate1000', 6)):
+        lines = (100000 if b.args.quick else 1000000) // (1 if command == 'query' else 2)
+        base = b.scene(name)
+        o, u, v, d = povray.camera_of(base + '.camera')
+        asked, one = os.path.join(b.results, 'asked.txt'), os.path.join(b.results, 'one.txt')
+        with open(asked, 'w') as f:
+            for _ in range(lines):
+                if numbers == 3:
+                    f.write('%.6f %.6f %.6f\n' % (g.f(0, 100), g.f(0, 100), g.f(0, 100)))
+                else:
+                    x, y = g.f(), g.f()
+                    f.write('%.6f %.6f %.6f %.6f %.6f %.6f\n' % (*[o[i] + x * u[i] + y * v[i] for i in range(3)], *d))
+        with open(asked) as f, open(one, 'w') as out:
+            out.write(f.readline())
+        answers = []
+        for threads in dict.fromkeys([1, os.cpu_count() or 1]):
+            times = []
+            for file in (asked, one):
+                out = os.path.join(b.results, 'answered.txt')
+                begin = time.monotonic()
+                with open(out, 'w') as f:
+                    done = b.run([b.program('quoin'), command, '-i', file, '--threads', threads, '--quiet', base + '.csg'], stdout=f)
+                times.append(time.monotonic() - begin)
+                if file == asked:
+                    with open(out) as f:
+                        answers.append(f.read())
+                os.remove(out)
+            right = done.returncode == 0 and answers[-1] == answers[0] and answers[0].count('\n') == lines
+            seconds = times[0] - times[1] if right else float('nan')
+            rows.append(dict(scene=name, command='quoin ' + command, threads=threads, lines=lines, seconds='%.4g' % seconds, mlines='%.4g' % (lines / seconds / 1e6)))
+            print('  quoin %-6s %s, %d threads: %.3f million lines a second' % (command, name, threads, lines / seconds / 1e6))
+        os.remove(asked)
+        os.remove(one)
+    b.write('text', TEXT_FIELDS, rows)
+
+
 # --- growth and threads ----------------------------------------------------------------------------------------------
 
 GROWTH = {
@@ -284,15 +331,15 @@ def growth_part(b):
             b.say('growth ' + name)
             for threads in [1] if quick else [1, 0]: # of the compilation
                 found = b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
-                                      0.05 if quick else 0.2, '--size', 512, '--oracle', 20 if threads else 0, '--build-threads', threads, '--paths',
+                                      0.05 if quick else 0.2, '--size', 512, '--oracle', 20, '--judge', int(threads == 1), '--build-threads', threads, '--paths',
                                       ','.join(GROWTH_PATHS if threads else ['grid'])])
                 for r in found if threads else []:
                     rows.append(r)
                 for r in found[:1]:
                     build.append(dict(scene=name, build_threads=threads or os.cpu_count(), leaves=r['leaves_kept'], read_s=r['read_s'],
                                       compile_s=r['compile_s'], bytes=r['bytes']))
-    b.write('growth', SCENE_FIELDS, rows)
-    b.write('build', ['scene', 'build_threads', 'leaves', 'read_s', 'compile_s', 'bytes'], build)
+        b.write('growth', SCENE_FIELDS, rows)
+        b.write('build', ['scene', 'build_threads', 'leaves', 'read_s', 'compile_s', 'bytes'], build)
     rows = []
     for name in THREAD_SCENES if not quick else THREAD_SCENES[:1]:
         if b.args.scene and name not in b.args.scene:
@@ -300,7 +347,7 @@ def growth_part(b):
         base = b.scene(name)
         for threads in range(1, (os.cpu_count() or 1) + 1):
             rows += b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
-                                  0.1 if quick else 0.4, '--oracle', 0, '--threads', threads, '--paths', 'grid,single,intervals'])
+                                  0.1 if quick else 0.4, '--judge', 0, '--threads', threads, '--paths', 'grid,single,intervals'])
     b.write('threads', SCENE_FIELDS, rows)
 
 
@@ -328,6 +375,7 @@ def main():
     for name in b.args.only:
         if name not in parts:
             p.error('no part is called ' + name)
+    for name in b.args.only:
         b.say(name)
         parts[name](b)
     partial = b.args.quick or b.args.scene or b.args.path or b.args.no_peers or len(b.args.only) < len(parts)
