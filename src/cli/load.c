@@ -10,7 +10,7 @@
 double cli_clock(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  return (double)now.tv_sec + (double)now.tv_nsec / 1e9;
 }
 
 const char *cli_model_operand(const cli_command *command, const cli_common *common) {

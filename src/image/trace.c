@@ -124,7 +124,7 @@ static quoin_status add_lamp(const qn_picture *p, qn_tracer *t, size_t n, const 
     t->starts_on[waiting] = t->hits[i].surface;
     t->lit[waiting++] = (uint32_t)i;
   }
-  const quoin_status status = waiting ? qn_look(t->work, waiting, t->shadow_rays, t->starts_on, 0, t->shadow_hits) : QUOIN_OK;
+  const quoin_status status = waiting ? qn_look(t->work, waiting, t->shadow_rays, t->starts_on, QN_LOOK_ANY, t->shadow_hits) : QUOIN_OK;
   if (status != QUOIN_OK) {
     return status;
   }
@@ -142,7 +142,7 @@ quoin_status qn_trace(const qn_picture *p, qn_tracer *t, size_t n, const double 
   for (size_t i = 0; i < n; i++) {
     qn_frustum_ray(&p->frustum, xy[i][0], xy[i][1], &t->rays[i]);
   }
-  quoin_status status = qn_look(t->work, n, t->rays, NULL, QN_LOOK_T | QN_LOOK_MATERIAL, t->hits);
+  quoin_status status = qn_look(t->work, n, t->rays, NULL, QN_LOOK_T, t->hits);
   t->camera_rays += n;
   for (size_t i = 0; status == QUOIN_OK && i < n; i++) {
     const qn_seen *hit = &t->hits[i];

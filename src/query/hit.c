@@ -95,7 +95,7 @@ quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t
         return QUOIN_E_ARGUMENT;
       }
     }
-    quoin_status status = qn_look(work, count, rays + at, NULL, QN_LOOK_T | QN_LOOK_PART, seen);
+    quoin_status status = qn_look(work, count, rays + at, NULL, QN_LOOK_T, seen);
     for (size_t i = 0; status == QUOIN_OK && i < count; i++) {
       quoin_hit *hit = &out[at + i];
       *hit = (quoin_hit){.part = QUOIN_NO_PART};

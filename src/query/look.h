@@ -10,14 +10,13 @@
 typedef struct qn_seen {
   double t;          /* correctly rounded */
   uint32_t surface;  /* QUOIN_NO_SURFACE: no boundary is met, and nothing else is set */
-  uint32_t leaf;     /* the part; where parts share the surface and `exact_part` was not asked for, one of them */
+  uint32_t leaf;     /* the part */
   uint8_t leaving;
 } qn_seen;
 
 enum {
   QN_LOOK_T = 1,        /* t correctly rounded; without it t is only near */
-  QN_LOOK_PART = 2,     /* the leaf as the woven path names it, also where parts share the surface */
-  QN_LOOK_MATERIAL = 4  /* a leaf with the material that the woven path would find */
+  QN_LOOK_ANY = 2       /* where surfaces of several parts tie, any of these will do; else the one that the woven path names */
 };
 
 /* The first boundaries of n rays, each with a finite origin and a finite direction that is not zero. Rays that go the same way do best in

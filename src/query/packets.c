@@ -47,12 +47,6 @@ static quoin_status round_t(quoin_work *work, const quoin_ray *ray, const qn_pac
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* A tied lane's leaf is not the question's answer: parts share the surface, and which of them it is is wanted. */
-static int must_be_named(const quoin_scene *scene, uint32_t surface, unsigned want) {
-  const qn_surface *s = &scene->surfaces[surface];
-  return s->users > 1 && ((want & QN_LOOK_PART) || ((want & QN_LOOK_MATERIAL) && s->materials_differ));
-}
-
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
   const quoin_scene *scene = work->scene;
   qn_counts *counts = qn_scratch_counts(work->scratch);
@@ -65,14 +59,11 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     counts->rays += (uint64_t)__builtin_popcountll(packet->live & ~hits.unsure);
     counts->exact_rays += (uint64_t)__builtin_popcountll(hits.unsure);
   }
-  uint64_t woven = hits.unsure;
+  uint64_t woven = hits.unsure | (want & QN_LOOK_ANY ? 0 : hits.tied);
   *met = hits.found;
   for (uint64_t m = hits.found; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
     out[lane] = (qn_seen){hits.t[lane], hits.surface[lane], hits.leaf[lane], (uint8_t)(hits.leaving >> lane & 1)};
-    if ((hits.tied >> lane & 1) && must_be_named(scene, hits.surface[lane], want)) {
-      woven |= (uint64_t)1 << lane;
-    }
   }
   if (want & QN_LOOK_T) {
     _Alignas(64) double rounded[QN_LANES];

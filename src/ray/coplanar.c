@@ -71,14 +71,14 @@ static quoin_side side_between(qn_scratch *s, state *st, const qn_bound *a, cons
   return side;
 }
 
-/* The side between two successive places, within the range: what was not woven outside of it must not be asked. */
+/* The side between two successive places, within the range: what was not woven outside of it must not be asked. Beside the range, up to its
+   end, the leaves of the state are those next to that end; they say whether the solid ends there too. */
 static quoin_side side_of(qn_scratch *s, state *st, const qn_bound *a, const qn_bound *b, const qn_bound *from, const qn_bound *to) {
   if (st->vague == 0) {
     return s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
   }
-  a = qn_bound_cmp(s, a, from) < 0 ? from : a;
-  b = qn_bound_cmp(s, to, b) < 0 ? to : b;
-  return qn_bound_cmp(s, a, b) < 0 ? side_between(s, st, a, b) : QUOIN_OUTSIDE;
+  const qn_bound *low = qn_bound_cmp(s, a, from) < 0 ? from : a, *high = qn_bound_cmp(s, to, b) < 0 ? to : b;
+  return qn_bound_cmp(s, low, high) < 0 ? side_between(s, st, low, high) : side_between(s, st, a, b);
 }
 
 static int make_state(qn_scratch *s, state *st) {

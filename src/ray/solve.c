@@ -131,12 +131,16 @@ static uint32_t solve_exactly(qn_scratch *s, uint32_t surface) {
 
 enum { SUPER_ROOTS = 32 };
 
-static uint32_t solve_super(qn_scratch *s, const qn_half *half, qn_filter_leaf *frame) {
+/* From the line itself: the filter takes small coordinates for 0. */
+static uint32_t solve_super(qn_scratch *s, const qn_half *half, const qn_leaf *leaf) {
   const qn_quadric_shadow *q = &s->scene->quadrics[half->shadow];
-  double O[3], D[3], found[SUPER_ROOTS][2], places[SUPER_ROOTS];
+  double y[3], O[3], D[3], found[SUPER_ROOTS][2], places[SUPER_ROOTS];
+  for (int i = 0; i < 3; i++) {
+    y[i] = s->line->o[i] - leaf->pivot[i];
+  }
   for (int i = 0; i < 3; i++) {
     const double *r = q->row[i];
-    O[i] = ((r[0] * frame->o[0] + r[1] * frame->o[1]) + r[2] * frame->o[2]) + r[3];
+    O[i] = ((r[0] * y[0] + r[1] * y[1]) + r[2] * y[2]) + r[3];
     D[i] = (r[0] * s->line->d[0] + r[1] * s->line->d[1]) + r[2] * s->line->d[2];
   }
   int finite = isfinite(O[0]) && isfinite(O[1]) && isfinite(O[2]) && isfinite(D[0]) && isfinite(D[1]) && isfinite(D[2]);
@@ -169,7 +173,7 @@ uint32_t qn_solve_half(qn_scratch *s, const qn_leaf *leaf, qn_filter_leaf *frame
   }
   uint32_t at;
   if (half->kind == QN_SUPER_BODY) {
-    at = solve_super(s, half, frame);
+    at = solve_super(s, half, leaf);
   } else {
     if (s->range[index] == RANGE_UNKNOWN) {
       s->range[index] = half_range(s->scene, leaf, half);

@@ -37,7 +37,7 @@ typedef struct qn_packet {
 /* What became of each lane. A lane is in at most one of `found` and `unsure`. */
 typedef struct qn_packet_hits {
   uint64_t found, leaving, unsure;
-  uint64_t tied; /* of the found: `leaf` may not be the one that the woven path names */
+  uint64_t tied; /* of the found: leaves tie there; the woven path may name another of them, and of several surfaces there another */
   _Alignas(64) double t[QN_LANES];      /* approximate: within `error` of the true parameter */
   _Alignas(64) double error[QN_LANES];
   uint32_t surface[QN_LANES], leaf[QN_LANES]; /* leaf: one with that surface at the hit */

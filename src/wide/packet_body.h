@@ -376,7 +376,8 @@ static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
-  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.tied = 0, w.counts = (qn_wide_counts){0};
+  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
+  memset(w.ties, 0, sizeof w.ties);
   hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
   if (!facts(&w, packet)) { /* numbers for which no bound is given */
     hits->unsure = packet->live;
@@ -440,7 +441,6 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     w.unsure |= (uint64_t)!(fabs(best.t[k]) <= w.f.reach) << k;
   }
   hits->unsure = w.unsure & packet->live;
-  hits->tied = w.tied;
   hits->found = found & packet->live & ~w.unsure;
   hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
   hits->far_end = 0;
@@ -448,6 +448,11 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     unsigned k = qn_trailing_zeros(m);
     uint64_t payload;
     memcpy(&payload, &best.p[k], 8);
+    int tied = w.ties[k] > TIES;
+    for (int i = 0; i < w.ties[k] && i < TIES; i++) {
+      tied |= !(fabs(w.tie[i][k] - best.t[k]) > w.tolerance[k]);
+    }
+    hits->tied |= (uint64_t)tied << k;
     hits->t[k] = best.t[k];
     hits->error[k] = w.tolerance[k] / 2;
     hits->surface[k] = (uint32_t)payload;

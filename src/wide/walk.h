@@ -7,7 +7,7 @@
 
 typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
 
-enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 7 * QN_BVH_DEPTH + 8 };
+enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 7 * QN_BVH_DEPTH + 8, TIES = 4 };
 
 /* How a packet's directions lie on an axis. */
 enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
@@ -17,7 +17,9 @@ typedef struct walk {
   const struct quoin_scene *scene;
   const qn_normal *normal;
   uint64_t unsure;
-  uint64_t tied; /* lanes in which ends of two leaves were equal: which of them is named is not for the packet to say */
+  /* Where ends of two leaves were equal, the first few places: which leaf and which surface is named there is not for the packet to say. */
+  uint8_t ties[QN_LANES_NOW];
+  double tie[TIES][QN_LANES_NOW];
   qn_wide_counts counts;
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
   _Alignas(64) double tolerance[QN_LANES_NOW]; /* the sum of any two errors of this lane so far */
@@ -44,9 +46,9 @@ QN_INLINE uint64_t eights(unsigned bits) {
 
 /* --- order --------------------------------------------------------------------------------------------------------- */
 
-static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd apart, vd px, vd py, unsigned *equal) {
-  _Alignas(64) double x[QN_W], y[QN_W], gap[QN_W];
-  vstore(x, px), vstore(y, py), vstore(gap, apart);
+static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apart, vd px, vd py, unsigned *equal) {
+  _Alignas(64) double x[QN_W], y[QN_W], t[QN_W], gap[QN_W];
+  vstore(x, px), vstore(y, py), vstore(t, at), vstore(gap, apart);
   for (int i = 0; i < QN_W; i++) {
     if (near >> i & 1) {
       uint64_t a, b;
@@ -55,7 +57,11 @@ static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd apart, vd 
       int nobody = (a & QN_NOBODY) == QN_NOBODY; /* both ends of the range, or no end at all */
       if ((a & who) == (b & who) && !(nobody && gap[i] != 0)) {
         *equal |= 1u << i;
-        w->tied |= (uint64_t)(!((a | b) & QN_STARTS_ON) && (a >> 32 & QN_LEAF_BITS) != (b >> 32 & QN_LEAF_BITS)) << (g * QN_W + i);
+        if (!((a | b) & QN_STARTS_ON) && (a >> 32 & QN_LEAF_BITS) != (b >> 32 & QN_LEAF_BITS)) {
+          uint8_t *n = &w->ties[g * QN_W + i];
+          *n += *n <= TIES;
+          w->tie[*n - 1 < TIES ? *n - 1 : 0][g * QN_W + i] = t[i];
+        }
       } else {
         w->unsure |= (uint64_t)1 << (g * QN_W + i);
       }
@@ -74,7 +80,7 @@ QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *bef
     return;
   }
   unsigned same = 0;
-  settle_ties(w, g, close, gap, px, py, &same);
+  settle_ties(w, g, close, x, gap, px, py, &same);
   *equal = vmask(same);
   *mask = vandnot(*mask, vmask(close & ~same));
 }

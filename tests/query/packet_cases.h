@@ -294,7 +294,7 @@ static inline void fill_bundle(dice *d, int kind, const frame *f, quoin_ray rays
     break;
   }
   case 7: dir[a] = ldexp(roll(d, 3) - 1, -20 - roll(d, 40)), dir[b] = ldexp(roll(d, 3) - 1, -20 - roll(d, 40)); break;
-  case 8: dir[a] = roll(d, 2) ? 1e-17 : ldexp(1, -40 - roll(d, 1000)); break;
+  case 8: dir[a] = roll(d, 2) ? 1e-17 : ldexp(1, -40 - roll(d, roll(d, 6) ? 50 : 1000)); break;
   case 9: from = 0.5 * roll(d, 12), to = roll(d, 2) ? from + 0.5 * roll(d, 8) : inf; break;
   case 15: u[a] = v[b] = 0, o[a] = grid(d), o[b] = grid(d); break;
   case 16: from = roll(d, 2) ? from : -1e200, to = roll(d, 2) ? -1e160 : roll(d, 2) ? 1e200 : 1e-310, from = from < to ? from : to; break;
@@ -302,7 +302,7 @@ static inline void fill_bundle(dice *d, int kind, const frame *f, quoin_ray rays
   }
   double lift = 1;
   if (kind == 12) {
-    lift = ldexp(1 + 0.125 * roll(d, 8), (roll(d, 2) ? 1 : -1) * roll(d, 700));
+    lift = ldexp(1 + 0.125 * roll(d, 8), (roll(d, 2) ? 1 : -1) * roll(d, roll(d, 6) ? 90 : 700));
   } else if (kind == 13) {
     lift = ldexp(1, -1074 + 60 + roll(d, 20));
     dir[a] += ldexp(0.7, -62 - roll(d, 16));

@@ -39,7 +39,7 @@ static truth weave_ray(const ask *a, const quoin_ray *ray) {
   return out;
 }
 
-typedef struct shares { uint64_t lanes, found, leaving, unsure; } shares;
+typedef struct shares { uint64_t lanes, found, leaving, tied, unsure; } shares;
 static shares by_model[MODELS], by_bundle[BUNDLES], by_frame[FRAMES], by_isa[3], table[MODELS][BUNDLES];
 static const qn_wide *bodies[3];
 static size_t body_count;
@@ -65,10 +65,10 @@ static void blame(const char *what, const char *text, const char *body, kind k, 
     printf("%s (%s, %s, %s, %s)\n%s", what, body, MODEL_NAMES[k.model], BUNDLE_NAMES[k.bundle], FRAME_NAMES[k.frame], text); /* longer than cmocka prints */
     printf("ray {{%a, %a, %a}, {%a, %a, %a}, %a, %a}\n", ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2], ray->from, ray->to);
     printf("  = %.17g %.17g %.17g %.17g %.17g %.17g\n", ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2]);
-    printf("woven: found %d leaving %d surface %u t %.17g\n", want->found, want->leaving, want->surface, want->t);
+    printf("woven: found %d leaving %d surface %u leaf %u t %.17g\n", want->found, want->leaving, want->surface, want->part, want->t);
     if (hits) {
-      printf("packet: found %d leaving %d surface %u t %.17g +- %g, lane %u\n", (int)(hits->found >> lane & 1), (int)(hits->leaving >> lane & 1), hits->surface[lane],
-             hits->t[lane], hits->error[lane], lane);
+      printf("packet: found %d leaving %d surface %u leaf %u t %.17g +- %g, lane %u\n", (int)(hits->found >> lane & 1), (int)(hits->leaving >> lane & 1), hits->surface[lane],
+             hits->leaf[lane], hits->t[lane], hits->error[lane], lane);
     }
   }
 }
@@ -77,6 +77,7 @@ static void tally(shares *c, const qn_packet_hits *hits, uint64_t live) {
   c->lanes += (uint64_t)__builtin_popcountll(live);
   c->found += (uint64_t)__builtin_popcountll(hits->found);
   c->leaving += (uint64_t)__builtin_popcountll(hits->leaving);
+  c->tied += (uint64_t)__builtin_popcountll(hits->tied);
   c->unsure += (uint64_t)__builtin_popcountll(hits->unsure);
 }
 
@@ -87,7 +88,7 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
   (p->few ? bodies[body]->few : bodies[body]->first)(a->scene, p, &hits, &counts);
   _Alignas(64) double rounded[QN_LANES];
   uint64_t made = 0, sure = 0;
-  if ((hits.found | hits.unsure) & ~live || hits.found & hits.unsure || hits.leaving & ~hits.found) {
+  if ((hits.found | hits.unsure) & ~live || hits.found & hits.unsure || (hits.leaving | hits.tied) & ~hits.found) {
     blame("lanes that are not there", text, bodies[body]->name, k, &rays[0], &want[0], NULL, 0);
     return;
   }
@@ -112,8 +113,8 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
     if (found != w->found) {
       blame("found or not", text, bodies[body]->name, k, ray, w, &hits, lane);
     } else if (found) {
-      if (hits.surface[lane] != w->surface || (int)(hits.leaving >> lane & 1) != w->leaving) {
-        blame("surface or side", text, bodies[body]->name, k, ray, w, &hits, lane);
+      if ((int)(hits.leaving >> lane & 1) != w->leaving || (!(hits.tied >> lane & 1) && (hits.surface[lane] != w->surface || hits.leaf[lane] != w->part))) {
+        blame("surface, leaf or side", text, bodies[body]->name, k, ray, w, &hits, lane);
       } else if (!(fabs(hits.t[lane] - w->t) <= hits.error[lane] + 0x1p-52 * fabs(w->t))) {
         blame("parameter", text, bodies[body]->name, k, ray, w, &hits, lane);
       } else if (sure >> lane & 1 && memcmp(&rounded[lane], &w->t, sizeof w->t)) {
@@ -250,11 +251,12 @@ static void one_grid(dice *d, const ask *a, const char *text, kind k, const fram
 }
 
 static void print_census(const char *title, const char *const *names, const shares *c, size_t n) {
-  print_message("%-22s %10s %7s %8s %8s\n", title, "lanes", "found", "leaving", "given up");
+  print_message("%-22s %10s %7s %8s %8s %8s\n", title, "lanes", "found", "leaving", "tied", "given up");
   for (size_t i = 0; i < n; i++) {
     if (c[i].lanes) {
       double all = (double)c[i].lanes;
-      print_message("  %-20s %10.0f %6.1f%% %7.2f%% %7.3f%%\n", names[i], all, 100 * (double)c[i].found / all, 100 * (double)c[i].leaving / all, 100 * (double)c[i].unsure / all);
+      print_message("  %-20s %10.0f %6.1f%% %7.2f%% %7.2f%% %7.2f%%\n", names[i], all, 100 * (double)c[i].found / all, 100 * (double)c[i].leaving / all,
+                    100 * (double)c[i].tied / all, 100 * (double)c[i].unsure / all);
     }
   }
 }

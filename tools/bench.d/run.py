@@ -188,7 +188,7 @@ COMMAND_FIELDS = ['scene', 'program', 'threads', 'width', 'height', 'seconds']
 TEXT_FIELDS = ['scene', 'command', 'threads', 'lines', 'seconds', 'mlines']
 ANTIALIASING = [('none', ['-A'])] + \
     [('%dx%d where over 0.1' % (r, r), ['+A0.1', '+AM1', '+R%d' % r]) for r in (2, 3, 4, 6, 9)] + \
-    [('recursive, depth %d' % r, ['+A0.05', '+AM2', '+R%d' % r]) for r in (1, 2, 3, 4)]
+    [('recursive depth %d' % r, ['+A0.05', '+AM2', '+R%d' % r]) for r in (1, 2, 3, 4)]
 
 
 def picture_model(base):
@@ -219,7 +219,7 @@ def pictures_part(b):
                     continue
                 output = os.path.join(b.results, 'povray-%d.ppm' % k)
                 text = povray.picture_text(base, width, height, LIGHT)
-                spent = povray.render(base, text, width, height, settings, 1, output, 120)
+                spent = povray.render(base, text, width, height, settings, 1, output, 40)
                 if spent is None:
                     break
                 f.write('POV-Ray:%s %r %s\n' % (label.replace(' ', '_'), spent[0], output))
