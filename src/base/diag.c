@@ -1,5 +1,7 @@
 #include "base/diag.h"
 
+#include "base/limits.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +20,18 @@ void qn_diags_free(qn_diags *diags) {
 }
 
 unsigned qn_diags_file(qn_diags *diags, const char *name) {
-  if (diags->file_count >= (1u << 12) - 1 || !qn_grow(diags->arena.mem, &diags->files, &diags->file_capacity, diags->file_count + 1)) {
+  if (diags->file_count + 1 >= QN_MAX_FILES) {
+    for (size_t i = diags->file_count; i-- > 0;) { /* a caller of many texts gives them one name, or few: the last is tried first */
+      if (strcmp(diags->files[i], name) == 0) {
+        return (unsigned)(i + 1);
+      }
+    }
+    if (diags->file_count >= QN_MAX_FILES) {
+      return QN_MAX_FILES;
+    }
+    name = "(another text)";
+  }
+  if (!qn_grow(diags->arena.mem, &diags->files, &diags->file_capacity, diags->file_count + 1)) {
     return 0;
   }
   const char *copy = qn_arena_text(&diags->arena, name, strlen(name));

@@ -25,7 +25,8 @@ typedef struct qn_diags {
 void qn_diags_init(qn_diags *diags, qn_mem *mem);
 void qn_diags_free(qn_diags *diags);
 
-/* Adds a file name and gives its number, 0 when refused. A name that is there already gives a new number. */
+/* Adds a file name and gives its number, 0 when memory is refused. A name that is there already gives a new number, until there are
+   QN_MAX_FILES - 1 of them: then known names keep theirs, and new ones share the last number, "(another text)". */
 unsigned qn_diags_file(qn_diags *diags, const char *name);
 
 /* One diagnostic. `code` is a literal. `source` is the source line (source_length bytes, copied) or null. The texts

@@ -31,6 +31,10 @@
 /* Bytes of one model text; places are kept in 32 bits. Met: Q0905 "file too large". */
 #define QN_MAX_TEXT ((size_t)1 << 31)
 
+/* Texts and files read into one model whose names are kept apart in diagnostics: a place holds 12 bits for them. More may be
+   read; met, the names of further ones are given as "(another text)". */
+#define QN_MAX_FILES 4095
+
 /* Leaves of one model. Met: Q0906 "too many primitives". */
 #define QN_MAX_LEAVES ((size_t)1 << 28)
 

@@ -248,6 +248,10 @@ static qn_interval slope_range(double e, double p, qn_interval a, qn_interval b)
     return (qn_interval){1, 1};
   }
   qn_interval open = p > 1 ? (qn_interval){0, 1} : (qn_interval){1, INFINITY};
+  if (e == 0 && (b.hi < a.lo || b.lo > a.hi)) {
+    double phi = b.hi < a.lo ? 1 : 0; /* of the greater one */
+    return (qn_interval){phi, phi};
+  }
   if (!(QN_SUPER_SLOPE(e, p) < QN_SUPER_SLOPE_MOST)) {
     return open;
   }

@@ -27,11 +27,11 @@ static double tangent(const qn_super_line *c, double t, const qn_super_look *s) 
 /* The first root in [a, b], f > 1 up to a. f > 1 up to *lo for certain, f < 1 at *hi. */
 static qn_super_answer enter(const qn_super_line *c, double a, double b, double *lo, double *hi) {
   qn_super_line finer;
-  double l = a, t = a, h = INFINITY, last = 0, last_rate = 0, near = 0, flat = 1 - 1 / c->q, wide = QN_SUPER_FINE * c->size;
+  double l = a, t = a, h = INFINITY, last = 0, last_rate = 0, near = 0, flat = 1 - 1 / c->q;
   int slopes = 0;
   for (int looks = 0; looks < MOST_LOOKS; looks++) {
     qn_super_look s = qn_super_look_at(c, t);
-    double bits = QN_STEP * fabs(t);
+    double bits = QN_STEP * fabs(t), wide = fmax(QN_SUPER_FINE * c->size, 8 * bits);
     int open = 0; /* cannot tell */
     if (s.over > s.error && s.slope < -s.slope_error) {
       double rate = s.slope / (1 + flat * s.over), bend = 0; /* rate: of G, times q */
@@ -42,7 +42,7 @@ static qn_super_answer enter(const qn_super_line *c, double a, double b, double 
       if (slopes) {
         bend = 0.5 * (l - t) * (l - t) * fabs((rate - last_rate) / (rate * (t - last)));
       }
-      near = 2.25 * s.error / -s.slope + 2 * bits;
+      near = 2.5 * s.error / -s.slope + 2 * bits;
       last = t, last_rate = rate;
       t = l + (!slopes ? 0 : bend < 0.25 * near ? near + 1.5 * bend : 0.75 * bend);
       t = t < h ? t : l;
@@ -55,17 +55,18 @@ static qn_super_answer enter(const qn_super_line *c, double a, double b, double 
     } else if (s.over < -s.error && l < t) {
       h = t;
       if (h - l <= 2 * near) {
-        *lo = l, *hi = h;
-        if (h - l <= wide) {
+        double root = t - s.over / s.slope; /* the best guess: the enclosure's middle */
+        *lo = fmin(l, root - (h - root)), *hi = h;
+        if (*hi - *lo <= wide) {
           return QN_SUPER_FOUND;
         }
         open = 1;
       } else { /* outside, or next to the root */
-        double back = s.slope < 0 ? t - (s.over - 2.25 * s.error) / s.slope - bits : l;
+        double back = s.slope < 0 ? t - (s.over - 2.5 * s.error) / s.slope - bits : l;
         t = back > l && back < h ? back : l;
       }
     } else if (s.slope < -s.slope_error && fabs(s.over) <= s.error) { /* next to the root */
-      near = 2.25 * s.error / -s.slope + 2 * bits;
+      near = 2.5 * s.error / -s.slope + 2 * bits;
       t += near;
       open = !(near < wide && t < h);
     } else {

@@ -206,7 +206,7 @@ static qn_super_look look_finely(const qn_super_line *c, double t) {
   qn_super_look r = {.over = (double)(f - 1), .slope = (double)slope, .slope_error = QN_SUPER_RATE * (double)all};
   r.inner = (double)inner, r.rise = (double)(g[0] + g[1]), r.outer = (double)outer;
   r.rise_error = QN_SUPER_RATE * (double)(fabsl(g[0]) + fabsl(g[1]));
-  r.error = error_of(c, (double)f);
+  r.error = error_of(c, (double)f) + QN_U * fabs(r.over);
   return r;
 }
 

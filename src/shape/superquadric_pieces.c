@@ -28,7 +28,9 @@ static int between(double a, double t, double b) { return a < t && t < b; }
 /* The bracket [lo, hi] of one root, signs sign_lo and -sign_lo at its ends, made narrow. 0: cannot tell. */
 static int refine(const qn_super_line *c, double *lo, double *hi, int sign_lo) {
   qn_super_line finer;
-  double t = middle(*lo, *hi), last = 0, last_slope = 0, width = *hi - *lo, wide = QN_SUPER_FINE * c->size, near = 0;
+  double t = middle(*lo, *hi), last = 0, last_slope = 0, width = *hi - *lo, ends = fmax(fabs(*lo), fabs(*hi));
+  const double first = *lo, end = *hi; /* up to and from where the signs are known, the root being alone */
+  double wide = fmax(QN_SUPER_FINE * c->size, 8 * QN_STEP * ends);
   int slopes = 0, slow = 0;
   for (int looks = 0; looks < MOST_LOOKS; looks++) {
     qn_super_look s = qn_super_look_at(c, t);
@@ -36,39 +38,37 @@ static int refine(const qn_super_line *c, double *lo, double *hi, int sign_lo) {
     if (sign) {
       *(sign == sign_lo ? lo : hi) = t;
     }
-    double step = -s.over / s.slope, next = t + step;
-    near = 2.25 * s.error / fabs(s.slope) + 2 * QN_STEP * fabs(t);
-    int narrow = *hi - *lo <= 4 * near;
-    if (sign == 0 || narrow) {
-      if (sign == 0) { /* either side of it */
-        double left = t - near, right = t + near;
-        if (left > *lo && sign_at(c, left) == sign_lo) {
-          *lo = left;
-        }
-        if (right < *hi && sign_at(c, right) == -sign_lo) {
-          *hi = right;
-        }
-      }
-      if (*hi - *lo <= wide) {
+    double step = -s.over / s.slope, next = t + step, near = 1.5 * s.error / fabs(s.slope) + QN_STEP * fabs(t);
+    double left = next - near, right = next + near; /* at last the enclosure, its middle the best guess */
+    /* what the step leaves */
+    double bend = slopes ? 0.5 * step * step * fabs((s.slope - last_slope) / (s.slope * (t - last))) : INFINITY;
+    if ((sign == 0 || bend < 0.25 * near) && right - left <= wide && first < left && right < end) {
+      int at_left = left <= *lo ? sign_lo : sign_at(c, left), at_right = right >= *hi ? -sign_lo : sign_at(c, right);
+      if (at_left == sign_lo && at_right == -sign_lo) {
+        *lo = left, *hi = right;
         return 1;
       }
+      if (at_left && between(*lo, left, *hi)) {
+        *(at_left == sign_lo ? lo : hi) = left;
+      }
+      if (at_right && between(*lo, right, *hi)) {
+        *(at_right == sign_lo ? lo : hi) = right;
+      }
+    }
+    if (*hi - *lo <= fmin(4 * near, wide)) {
+      return 1;
+    }
+    if (sign == 0) {
       if (!qn_super_finer(c, &finer)) {
         return 0;
       }
       c = &finer;
       slopes = slow = 0;
-      next = t;
-    } else {
-      /* what the step leaves */
-      double bend = slopes ? 0.5 * step * step * fabs((s.slope - last_slope) / (s.slope * (t - last))) : INFINITY;
-      slow = *hi - *lo > 0.5 * width ? slow + 1 : 0;
-      width = slow ? width : *hi - *lo;
-      last = t, last_slope = s.slope, slopes = 1;
-      if (bend < 0.25 * near) { /* next to the root: just beyond it */
-        next += step > 0 ? near : -near;
-        slow = 0;
-      }
+      continue;
     }
+    slow = *hi - *lo > 0.5 * width ? slow + 1 : 0;
+    width = slow ? width : *hi - *lo;
+    last = t, last_slope = s.slope, slopes = 1;
     if (!between(*lo, next, *hi) || slow > 3) {
       next = middle(*lo, *hi);
       slopes = slow = 0;

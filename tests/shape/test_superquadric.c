@@ -1,8 +1,9 @@
 /* Superquadrics: the exact special exponents against the function itself, the error bound of the value against MPFR, the gradient
-   against differences, roots against the certain sign, and against a dense walk along the ray. */
+   against differences, the same function along a line against MPFR, roots against the certain sign, against a dense walk along the
+   ray, and of both tiers against each other. */
 #include <mpfr.h>
 
-#include "shape/super.h"
+#include "shape/super_line.h"
 #include "shapes.h"
 
 static int setup_bench(void **state) {
@@ -17,30 +18,44 @@ static int teardown_bench(void **state) {
 }
 
 /* |x|^p with the exponent 2/e, e > 0. */
-static void power(mpfr_t out, double x, double e) {
+static void power(mpfr_t out, mpfr_t x, double e) {
   mpfr_t p;
   mpfr_init2(p, 300);
   mpfr_set_ui(p, 2, MPFR_RNDN);
   mpfr_div_d(p, p, e, MPFR_RNDN);
-  mpfr_set_d(out, fabs(x), MPFR_RNDN);
+  mpfr_abs(out, x, MPFR_RNDN);
   mpfr_pow(out, out, p, MPFR_RNDN);
   mpfr_clear(p);
 }
 
-/* f - 1 as Barr writes it, in 300 bits: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) - 1, e and n > 0. */
-static void barr(mpfr_t out, double e, double n, const double X[3]) {
+/* f - 1 as Barr writes it, in 300 bits: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) - 1, n > 0; at e = 0 max(|x|, |y|)^(2/n). */
+static void barr_at(mpfr_t out, double e, double n, mpfr_t X[3]) {
   mpfr_t t, q;
   mpfr_inits2(300, t, q, (mpfr_ptr)NULL);
-  power(out, X[0], e);
-  power(t, X[1], e);
-  mpfr_add(out, out, t, MPFR_RNDN);
-  mpfr_set_d(q, e, MPFR_RNDN);
-  mpfr_div_d(q, q, n, MPFR_RNDN);
-  mpfr_pow(out, out, q, MPFR_RNDN);
+  if (e > 0) {
+    power(out, X[0], e);
+    power(t, X[1], e);
+    mpfr_add(out, out, t, MPFR_RNDN);
+    mpfr_set_d(q, e, MPFR_RNDN);
+    mpfr_div_d(q, q, n, MPFR_RNDN);
+    mpfr_pow(out, out, q, MPFR_RNDN);
+  } else {
+    power(out, X[mpfr_cmpabs(X[0], X[1]) < 0], n);
+  }
   power(t, X[2], n);
   mpfr_add(out, out, t, MPFR_RNDN);
   mpfr_sub_ui(out, out, 1, MPFR_RNDN);
   mpfr_clears(t, q, (mpfr_ptr)NULL);
+}
+
+static void barr(mpfr_t out, double e, double n, const double X[3]) {
+  mpfr_t x[3];
+  mpfr_inits2(300, x[0], x[1], x[2], (mpfr_ptr)NULL);
+  for (int i = 0; i < 3; i++) {
+    mpfr_set_d(x[i], X[i], MPFR_RNDN);
+  }
+  barr_at(out, e, n, x);
+  mpfr_clears(x[0], x[1], x[2], (mpfr_ptr)NULL);
 }
 
 static double exponent(bench *b) {
@@ -239,6 +254,118 @@ static int exact_sign_at(bench *b, double e, double n, const double O[3], const 
   return qn_superquadric_sign(&b->ctx, qn_num_from_double(&b->ctx, e), qn_num_from_double(&b->ctx, n), X);
 }
 
+/* df/dt at X with X' = D, and the sum of its addends' magnitudes: q [A^(e/n - 1) (x^p X'/X + y^p Y'/Y) + z^q Z'/Z], A = x^p + y^p. */
+static void barr_slope(mpfr_t out, mpfr_t all, double e, double n, mpfr_t X[3], const double D[3]) {
+  mpfr_t g[3], A, t;
+  mpfr_inits2(300, g[0], g[1], g[2], A, t, (mpfr_ptr)NULL);
+  mpfr_set_zero(A, 1);
+  for (int i = 0; i < 3; i++) {
+    power(g[i], X[i], i < 2 ? e : n);
+    if (i < 2) {
+      mpfr_add(A, A, g[i], MPFR_RNDN);
+    }
+    mpfr_mul_d(g[i], g[i], D[i], MPFR_RNDN);
+    if (!mpfr_zero_p(X[i])) {
+      mpfr_div(g[i], g[i], X[i], MPFR_RNDN);
+    }
+  }
+  mpfr_set_d(t, e, MPFR_RNDN);
+  mpfr_div_d(t, t, n, MPFR_RNDN);
+  mpfr_sub_ui(t, t, 1, MPFR_RNDN);
+  mpfr_pow(A, A, t, MPFR_RNDN);
+  mpfr_set_zero(out, 1);
+  mpfr_set_zero(all, 1);
+  for (int i = 0; i < 3; i++) {
+    if (i < 2 && !mpfr_zero_p(g[i])) {
+      mpfr_mul(g[i], g[i], A, MPFR_RNDN);
+    }
+    mpfr_mul_ui(g[i], g[i], 2, MPFR_RNDN);
+    mpfr_div_d(g[i], g[i], n, MPFR_RNDN);
+    mpfr_add(out, out, g[i], MPFR_RNDN);
+    mpfr_abs(g[i], g[i], MPFR_RNDN);
+    mpfr_add(all, all, g[i], MPFR_RNDN);
+  }
+  mpfr_clears(g[0], g[1], g[2], A, t, (mpfr_ptr)NULL);
+}
+
+static double line_exponent(bench *b) {
+  static const double halves[] = {0.25, 0.5, 0.8, 1, 2, 4, 8, 0.125, 0.0625, 0.4, 0.2};
+  return below(b, 2) ? halves[below(b, 11)] : below(b, 4) ? real(b, 0.1, 2) : below(b, 2) ? real(b, 2, 8) : real(b, 0x1p-6, 0.1);
+}
+
+/* QN_SUPER_VALUE, QN_SUPER_FINER, QN_SUPER_RATE. */
+static void line_is_within_its_error(void **state) {
+  bench *b = *state;
+  mpfr_t truth, difference, all, Y[3];
+  mpfr_inits2(300, truth, difference, all, Y[0], Y[1], Y[2], (mpfr_ptr)NULL);
+  int inner[5] = {0}, near = 0, slopes = 0;
+  double worst[2] = {0, 0};
+  for (int round = 0; round < 30000; round++) {
+    double e = line_exponent(b), n = below(b, 4) ? line_exponent(b) : e, O[3], D[3], X[3], error;
+    e = below(b, 10) ? e : 0;
+    if (e == 1 && n == 1) {
+      continue;
+    }
+    int exact = below(b, 2); /* O + D t is a double */
+    for (int i = 0; i < 3; i++) {
+      X[i] = below(b, 10) ? real(b, -1, 1) : below(b, 2) ? 0 : real(b, -1e-6, 1e-6);
+    }
+    if (below(b, 3)) { /* to the surface */
+      double v = qn_superquadric_value(e, n, X, &error) + 1, s = pow(v, -0.5 * n);
+      for (int i = 0; i < 3 && isfinite(s); i++) {
+        X[i] = fmax(-1, fmin(1, X[i] * s));
+      }
+    }
+    double t = exact ? 8 : real(b, 3, 1000);
+    for (int i = 0; i < 3; i++) {
+      D[i] = below(b, 6) ? real(b, -1, 1) : 0;
+      if (exact) {
+        X[i] = ldexp(rint(ldexp(X[i], 30)), -30), D[i] = ldexp(rint(ldexp(D[i], 20)), -20);
+      }
+      O[i] = X[i] - t * D[i];
+    }
+    qn_super_line c, finer;
+    if (!qn_super_line_make(e, n, O, D, &c)) {
+      assert_true(D[0] == 0 && D[1] == 0 && D[2] == 0);
+      continue;
+    }
+    inner[c.inner]++;
+    int tiers = qn_super_finer(&c, &finer) ? 2 : 1;
+    for (int i = 0; i < 3; i++) { /* O + t D without rounding */
+      mpfr_set_d(Y[i], D[i], MPFR_RNDN);
+      mpfr_mul_d(Y[i], Y[i], t, MPFR_RNDN);
+      mpfr_add_d(Y[i], Y[i], O[i], MPFR_RNDN);
+      assert_true(!exact || mpfr_cmp_d(Y[i], X[i]) == 0);
+    }
+    barr_at(truth, e, n, Y);
+    for (int tier = 0; tier < tiers; tier++) {
+      qn_super_look s = qn_super_look_at(tier ? &finer : &c, t);
+      mpfr_sub_d(difference, truth, s.over, MPFR_RNDN);
+      double off = fabs(mpfr_get_d(difference, MPFR_RNDA));
+      assert_true(off <= s.error);
+      worst[tier] = fmax(worst[tier], off / s.error);
+      near += fabs(s.over) < 1e-10;
+      if (exact && e > 0 && !(X[0] == 0 && X[1] == 0)) { /* its error is that at the coordinates as rounded */
+        barr_slope(difference, all, e, n, Y, D);
+        mpfr_sub_d(difference, difference, s.slope, MPFR_RNDN);
+        if (mpfr_number_p(all)) {
+          double most = mpfr_get_d(all, MPFR_RNDA);
+          assert_true(fabs(mpfr_get_d(difference, MPFR_RNDA)) <= QN_SUPER_RATE * most);
+          assert_true(s.slope_error >= 0.99 * QN_SUPER_RATE * most);
+          slopes++;
+        }
+      }
+    }
+  }
+  for (int i = 0; i < 5; i++) {
+    assert_true(inner[i] > 300);
+  }
+  assert_true(near > 10000 && slopes > 5000);
+  assert_true(worst[0] > 0.1 && worst[1] < 1);
+  mpfr_clears(truth, difference, all, Y[0], Y[1], Y[2], (mpfr_ptr)NULL);
+  mpfr_free_cache();
+}
+
 enum { MAX = 64 };
 
 /* Checks the enclosures' order and the certain sign at their ends; gives the count. */
@@ -362,6 +489,82 @@ static void grazing(void **state) {
   assert_true(hits > 100 && misses > 30);
 }
 
+/* The quick searches and the careful one, each by itself: the same roots, and the quick ones nearly always answer. */
+static void tiers_agree(void **state) {
+  bench *b = *state;
+  int rays = 0, unsure = 0, found[2] = {0, 0}, grazes = 0;
+  for (int round = 0; round < 6000; round++) {
+    qn_mark mark = qn_arena_mark(&b->ctx.arena);
+    double e = below(b, 4) ? real(b, 0.1, 2) : 0.5, n = below(b, 4) ? real(b, 0.1, 2) : 1, O[3], D[3], error;
+    int kind = below(b, 4);
+    e = kind == 0 || kind == 1 ? real(b, 2, 6) : e, n = kind == 0 || kind == 2 ? real(b, 2, 6) : n;
+    e = below(b, 20) ? e : 0, e = below(b, 20) ? e : 2;
+    random_ray(b, O, D);
+    if (round % 3 == 0) { /* a chord from about 2^-1 to 2^-16 of the size, or a miss */
+      double X[3], g[3], other[3];
+      for (int i = 0; i < 3; i++) {
+        X[i] = real(b, 0.2, 1) * (below(b, 2) ? 1 : -1);
+        other[i] = real(b, -1, 1);
+      }
+      double s = pow(qn_superquadric_value(e, n, X, &error) + 1, -0.5 * n) * (1 + ldexp(below(b, 2) ? 1 : -1, -2 - below(b, 30)));
+      X[0] *= s, X[1] *= s, X[2] *= s;
+      qn_superquadric_gradient(e, n, X, g);
+      for (int i = 0; i < 3; i++) {
+        D[i] = g[(i + 1) % 3] * other[(i + 2) % 3] - g[(i + 2) % 3] * other[(i + 1) % 3];
+        O[i] = X[i] - 2 * D[i];
+      }
+      grazes++;
+    }
+    double a = -INFINITY, c = INFINITY, quick[MAX][2], careful[MAX][2];
+    for (int i = 0; i < 3; i++) { /* the box, and more */
+      if (D[i] != 0) {
+        a = fmax(a, (-1.0001 - O[i] * copysign(1, D[i])) / fabs(D[i]));
+        c = fmin(c, (1.0001 - O[i] * copysign(1, D[i])) / fabs(D[i]));
+      }
+    }
+    if (a < c) {
+      size_t more = qn_super_careful(e, n, O, D, a, c, careful, MAX);
+      qn_super_line line;
+      size_t count = 0;
+      qn_super_answer answer;
+      assert_true(qn_super_line_make(e, n, O, D, &line));
+      double t0 = a, t1 = c;
+      if (e <= 2 && n <= 2) {
+        answer = qn_super_convex(&line, t0, t1, quick);
+        count = answer == QN_SUPER_FOUND ? 2 : 0;
+      } else {
+        answer = qn_super_pieces(&line, t0, t1, quick, MAX, &count);
+        qn_super_line hull; /* the narrowed stretch keeps every root */
+        assert_true(qn_super_line_make(fmin(e, 2), fmin(n, 2), O, D, &hull));
+        if (qn_super_narrow(&hull, &t0, &t1) == QN_SUPER_NONE) {
+          assert_int_equal(more, 0);
+        } else {
+          assert_true(t0 >= a && t1 <= c);
+          assert_true(more == 0 || (t0 < careful[0][1] && t1 > careful[more - 1][0]));
+        }
+      }
+      rays += round % 3 != 0;
+      unsure += round % 3 != 0 && answer == QN_SUPER_UNSURE;
+      if (answer != QN_SUPER_UNSURE) {
+        assert_int_equal(count, more); /* no chord here is as narrow as 2^-40 */
+        found[e > 2 || n > 2] += count > 0;
+      }
+      for (size_t i = 0; i < count && answer != QN_SUPER_UNSURE; i++) {
+        assert_true(quick[i][0] < careful[i][1] && careful[i][0] < quick[i][1]);
+        assert_true(quick[i][1] - quick[i][0] <= fmax(QN_SUPER_FINE * line.size, 8 * QN_STEP * fabs(quick[i][1])));
+      }
+      for (size_t i = 0; i < more && round % 4 == 0; i++) {
+        int before = i % 2 ? -1 : 1;
+        assert_int_equal(exact_sign_at(b, e, n, O, D, careful[i][0]), before);
+        assert_int_equal(exact_sign_at(b, e, n, O, D, careful[i][1]), -before);
+      }
+    }
+    qn_arena_release(&b->ctx.arena, mark);
+  }
+  assert_true(found[0] > 700 && found[1] > 1500 && grazes > 1500);
+  assert_true(rays > 3000 && unsure * 500 < rays);
+}
+
 /* Known roots. */
 static void known_roots(void **state) {
   bench *b = *state;
@@ -425,9 +628,11 @@ int main(void) {
     cmocka_unit_test_setup_teardown(gradient_is_the_functions, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(exact_exponents, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(signs, setup_bench, teardown_bench),
+    cmocka_unit_test_setup_teardown(line_is_within_its_error, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(known_roots, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(roots_bracket_the_sign, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(grazing, setup_bench, teardown_bench),
+    cmocka_unit_test_setup_teardown(tiers_agree, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(support, setup_bench, teardown_bench),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
