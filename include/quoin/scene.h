@@ -29,7 +29,8 @@ typedef struct quoin_scene_info {
   size_t distinct_surfaces; /* after equal surfaces were made one */
   int empty;                /* no point is inside */
   int unbounded;            /* no bounding box could be given */
-  double box_min[3], box_max[3]; /* holds the solid; each leaf's box is tight to the last bits, a tree's is the boxes' combination; infinite where unbounded */
+  double box_min[3], box_max[3]; /* holds the solid; infinite where unbounded. A leaf's box is exact, rounded outward, where its frame lies along
+                                    the axes and its sizes are rational, else tight to the last bits; a tree's is the boxes' combination */
   size_t memory;            /* bytes held */
 } quoin_scene_info;
 QUOIN_API void quoin_scene_get_info(const quoin_scene *scene, quoin_scene_info *out);

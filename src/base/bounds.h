@@ -52,7 +52,7 @@
      |f^ - f| <= (QN_SUPER_VALUE(s, q) + QN_SUPER_BEYOND max(f^ - 1, 0)) f^ + QN_SUPER_VALUE_0
    which also holds a rounding of each coordinate, relatively u; in long doubles of 64 bits and more, QN_SUPER_FINER times that. Each
    addend of df/dt is within QN_SUPER_RATE of itself. A tangent's step is shortened by QN_SUPER_TANGENT of itself.
-   QN_SUPER_LEAST, QN_SUPER_MOST: the range of exponents for that (0 too for e); QN_SUPER_SHORT, QN_SUPER_LONG: |O_i| and |D_i| that are not 0
+   QN_SUPER_LEAST, QN_SUPER_MOST: the range of exponents for that (0 too for e), s at most QN_SUPER_QUOTIENT; QN_SUPER_SHORT, QN_SUPER_LONG: |O_i| and |D_i| that are not 0
    are at least the one, |D_i| at most the other. */
 #define QN_SUPER_VALUE(s, q) ((6 + 12 * (s) + 3 * (q)) * QN_U)
 #define QN_SUPER_VALUE_0 (6 * QN_U)
@@ -60,8 +60,9 @@
 #define QN_SUPER_FINER 0x1p-10
 #define QN_SUPER_RATE 0x1p-38
 #define QN_SUPER_TANGENT (32 * QN_U)
-#define QN_SUPER_LEAST 0x1p-6
+#define QN_SUPER_LEAST 0x1p-9
 #define QN_SUPER_MOST 0x1p+3
+#define QN_SUPER_QUOTIENT 0x1p+9
 #define QN_SUPER_SHORT 0x1p-200
 #define QN_SUPER_LONG 0x1p+200
 /* Bits of MPFR along a ray: a sign is given when |G - 1| passes the bound above with 2^-QN_SUPER_BITS for u. */
@@ -116,7 +117,8 @@
    QN_WIDE_SLOW, QN_WIDE_MOVE: X = O^ + t0 D^ is within QN_WIDE_MOVE QN_WIDE_ROUND u (Omega + R) of O + t0 D, |X| <= R, while
    |D|^2 > QN_WIDE_SLOW times its packet's bound: QN_WIDE_MOVE QN_WIDE_ROUND >= 6.1 + 5.2 / sqrt(QN_WIDE_SLOW).
    QN_WIDE_LARGEST: coordinates, components and pieces' numbers beyond it, or (not coordinates) under its inverse, are left to others;
-   then QN_WIDE_TINY exceeds any loss by underflow. QN_WIDE_FLOAT >= 3 2^-24: relative widening of a slab's 1/d. */
+   then QN_WIDE_TINY exceeds any loss by underflow. QN_WIDE_FLOAT >= 3 2^-24: relative widening of a slab's 1/d.
+   QN_WIDE_SPOT >= 4u: a place's point, relative to its terms. QN_FLOAT_STEP > 2^-24, QN_FLOAT_TINY > 2^-150: past a float's own rounding. */
 #define QN_WIDE_ROUND 32
 #define QN_WIDE_SHY 0x1p14
 #define QN_WIDE_STEEP 0x1p-24
@@ -127,6 +129,9 @@
 #define QN_WIDE_LARGEST 0x1p+100
 #define QN_WIDE_TINY 0x1p-400
 #define QN_WIDE_FLOAT 0x1p-20
+#define QN_WIDE_SPOT 0x1p-40
+#define QN_FLOAT_STEP 0x1p-22f
+#define QN_FLOAT_TINY 0x1p-126f
 
 /* Rounding places in wide code (src/wide/newton.h, scene/rounding.h). Legend: y = o - c + t d with c the surface's pivot; over the
    coordinates that occur, S = sum |o_j - c_j| + |t d_j|, D = sum |d_j|; K2, K1, K0 the surface's SQUARE, LINEAR and CONSTANT; a = q2(d).

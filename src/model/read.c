@@ -6,7 +6,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 QUOIN_API quoin_read_options quoin_read_options_default(void) {
   return (quoin_read_options){.facets = QUOIN_FACETS_AUTO, .max_errors = 100};
@@ -122,6 +121,14 @@ QUOIN_API quoin_status quoin_model_read_text(quoin_model *m, quoin_node parent, 
   return read(m, parent, file, length ? text : "", length, options ? options : &usual);
 }
 
+enum { MORE = 1 << 16 }; /* bytes asked for at least at a time */
+
+/* Room for a file whose length can be told, so that it need not grow; nothing is lost when it cannot. 0: memory was refused. */
+static int make_room(qn_mem *mem, FILE *f, char **text, size_t *capacity) {
+  long end = fseek(f, 0, SEEK_END) == 0 ? ftell(f) : 0;
+  return fseek(f, 0, SEEK_SET) != 0 || end <= 0 || (unsigned long)end > QN_MAX_TEXT || qn_grow(mem, text, capacity, (size_t)end + MORE);
+}
+
 /* The whole of a file: QUOIN_E_IO with errno, QUOIN_E_LIMIT when it is too long, QUOIN_E_MEMORY. */
 static quoin_status slurp(qn_mem *mem, const char *path, char **text, size_t *length, size_t *capacity) {
   FILE *f = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
@@ -129,15 +136,14 @@ static quoin_status slurp(qn_mem *mem, const char *path, char **text, size_t *le
   if (!f) {
     return QUOIN_E_IO;
   }
-  struct stat about;
-  if (fstat(fileno(f), &about) == 0 && S_ISREG(about.st_mode) && about.st_size > (off_t)QN_MAX_TEXT) {
-    status = QUOIN_E_LIMIT; /* known without reading it */
+  if (f != stdin && !make_room(mem, f, text, capacity)) {
+    status = QUOIN_E_MEMORY;
   }
   errno = 0;
   while (status == QUOIN_OK) {
     if (*length > QN_MAX_TEXT) {
       status = QUOIN_E_LIMIT;
-    } else if (!qn_grow(mem, text, capacity, *length + (1 << 16))) {
+    } else if (!qn_grow(mem, text, capacity, *length + MORE)) {
       status = QUOIN_E_MEMORY;
     } else {
       size_t n = fread(*text + *length, 1, *capacity - *length, f);

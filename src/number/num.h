@@ -75,9 +75,10 @@ double qn_num_to_double(qn_num a); /* correctly rounded: nearest, ties to even; 
 void qn_num_to_dd(qn_ctx *ctx, qn_num a, double *hi, double *lo);
 
 /* The same and its like without any memory, for small numbers of usual size; 0 for others, which are left to the functions above.
-   hi, lo: as of qn_num_to_dd. down, up: the doubles next to a + b, both a + b itself where it is one. out: nearest to a^2. Cost: 20 to 50 ns. */
+   hi, lo: as of qn_num_to_dd. down: the largest double not above a - b, up: the least not below a + b, b >= 0. out: nearest to a^2.
+   Cost: 20 to 50 ns. */
 QN_NODISCARD int qn_num_quick_pair(qn_num a, double *hi, double *lo);
-QN_NODISCARD int qn_num_quick_sum(qn_num a, qn_num b, double *down, double *up);
+QN_NODISCARD int qn_num_quick_span(qn_num a, qn_num b, double *down, double *up);
 QN_NODISCARD int qn_num_quick_square(qn_num a, double *out);
 
 /* The value as the shortest text that reads back to it: "0.1", "2.5e-07", "(1/3)", and for a rounded number

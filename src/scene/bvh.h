@@ -4,6 +4,8 @@
 
 #include "base/mem.h"
 
+#include <math.h>
+
 /* Boxes in single precision, rounded outward from the leaves' boxes. Wide nodes, children's boxes side by side. */
 enum { QN_BVH_WIDE = 8 };
 typedef struct qn_bvh_node {
@@ -21,8 +23,34 @@ typedef struct qn_bvh {
   size_t item_count;
 } qn_bvh;
 
-/* Builds over n boxes (six doubles each: min xyz, max xyz) numbered 0 .. n-1 by `numbers`; surface area heuristic in bins, n
-   log n, on up to `threads` threads, the same tree for every number of threads. */
+/* A box to be sorted in; the last lanes: the lower and the upper 16 bits of the leaf's number, as numbers: bits in their place would be
+   denormal floats, which are slow. */
+typedef struct qn_bvh_item { _Alignas(16) float min[4], max[4]; } qn_bvh_item;
+
+/* Single precision, not above and not below. */
+QN_INLINE float qn_round_down(double v) {
+  float f = (float)v;
+  return (double)f > v ? nextafterf(f, -INFINITY) : f;
+}
+QN_INLINE float qn_round_up(double v) {
+  float f = (float)v;
+  return (double)f < v ? nextafterf(f, INFINITY) : f;
+}
+
+QN_INLINE void qn_bvh_item_make(qn_bvh_item *item, const double min[3], const double max[3], uint32_t number) {
+  for (int k = 0; k < 3; k++) {
+    item->min[k] = qn_round_down(min[k]);
+    item->max[k] = qn_round_up(max[k]);
+  }
+  item->min[3] = (float)(number & 0xffff);
+  item->max[3] = (float)(number >> 16);
+}
+
+/* Builds over items from qn_alloc_line, which it reorders; surface area heuristic in bins, n log n, on up to `threads` threads, the
+   same tree for every number of threads. */
+QN_NODISCARD quoin_status qn_bvh_build_items(qn_bvh *bvh, qn_mem *mem, size_t n, qn_bvh_item *items, unsigned threads);
+
+/* Builds over n boxes (six doubles each: min xyz, max xyz) numbered 0 .. n-1 by `numbers`. */
 QN_NODISCARD quoin_status qn_bvh_build(qn_bvh *bvh, qn_mem *mem, size_t n, const double (*boxes)[6], const uint32_t *numbers,
                                         unsigned threads);
 void qn_bvh_free(qn_bvh *bvh, qn_mem *mem);

@@ -10,32 +10,46 @@
 #include <math.h>
 #include <string.h>
 
-static quoin_status build_hierarchy(qn_building *b, unsigned threads) {
+enum { STRETCH = 4096 }; /* leaves a thread takes at once */
+typedef struct sorting { quoin_scene *scene; qn_bvh_item *items; size_t *bounded; } sorting; /* bounded: by stretch, the ones before it */
+
+static quoin_status sort_in(void *user, unsigned thread, size_t number) {
+  (void)thread;
+  const sorting *p = user;
+  quoin_scene *s = p->scene;
+  size_t begin = number * STRETCH, end = begin + STRETCH < s->leaf_count ? begin + STRETCH : s->leaf_count, at = p->bounded[number];
+  size_t free_at = begin - at;
+  for (size_t i = begin; i < end; i++) {
+    const qn_leaf *l = &s->leaves[i];
+    if (l->bounded) {
+      qn_bvh_item_make(&p->items[at++], l->min, l->max, (uint32_t)i);
+    } else {
+      s->unbounded[free_at++] = (uint32_t)i;
+    }
+  }
+  return QUOIN_OK;
+}
+
+static quoin_status build_hierarchy(qn_building *b) {
   quoin_scene *s = b->scene;
-  size_t n = 0;
+  size_t stretches = (s->leaf_count + STRETCH - 1) / STRETCH, n = 0;
+  sorting p = {s, NULL, qn_alloc(b->mem, stretches * sizeof *p.bounded)};
+  if (!p.bounded) {
+    return QUOIN_E_MEMORY;
+  }
   for (size_t i = 0; i < s->leaf_count; i++) {
+    if (i % STRETCH == 0) {
+      p.bounded[i / STRETCH] = n;
+    }
     n += s->leaves[i].bounded;
   }
-  double(*boxes)[6] = qn_alloc(b->mem, n * sizeof *boxes);
-  uint32_t *numbers = qn_alloc(b->mem, n * sizeof *numbers);
-  s->unbounded = qn_alloc(b->mem, (s->leaf_count - n) * sizeof *s->unbounded);
+  p.items = qn_alloc_line(b->mem, n * sizeof *p.items);
   s->unbounded_count = s->leaf_count - n;
-  quoin_status status = boxes && numbers && s->unbounded ? QUOIN_OK : QUOIN_E_MEMORY;
-  if (status == QUOIN_OK) {
-    size_t at = 0, free_at = 0;
-    for (size_t i = 0; i < s->leaf_count; i++) {
-      if (s->leaves[i].bounded) {
-        memcpy(boxes[at], s->leaves[i].min, sizeof s->leaves[i].min);
-        memcpy(boxes[at] + 3, s->leaves[i].max, sizeof s->leaves[i].max);
-        numbers[at++] = (uint32_t)i;
-      } else {
-        s->unbounded[free_at++] = (uint32_t)i;
-      }
-    }
-    status = qn_bvh_build(&s->bvh, b->mem, n, (const double(*)[6])boxes, numbers, threads);
-  }
-  qn_free(b->mem, boxes, n * sizeof *boxes);
-  qn_free(b->mem, numbers, n * sizeof *numbers);
+  s->unbounded = qn_alloc(b->mem, s->unbounded_count * sizeof *s->unbounded);
+  quoin_status status = p.items && s->unbounded ? qn_parallel(b->threads, stretches, sort_in, &p, NULL) : QUOIN_E_MEMORY;
+  status = status == QUOIN_OK ? qn_bvh_build_items(&s->bvh, b->mem, n, p.items, b->threads) : status;
+  qn_free_line(b->mem, p.items, n * sizeof *p.items);
+  qn_free(b->mem, p.bounded, stretches * sizeof *p.bounded);
   return status;
 }
 
@@ -111,7 +125,7 @@ static quoin_status make(qn_building *b) {
   status = status == QUOIN_OK ? qn_identify(b) : status;
   status = status == QUOIN_OK ? fit_all(b) : status;
   status = status == QUOIN_OK ? qn_tell_progress(b->progress, 0.7) : status;
-  status = status == QUOIN_OK ? build_hierarchy(b, b->threads) : status;
+  status = status == QUOIN_OK ? build_hierarchy(b) : status;
   status = status == QUOIN_OK ? qn_tell_progress(b->progress, 0.85) : status;
   status = status == QUOIN_OK ? qn_normal_build(&s->normal, s, b->mem, b->threads) : status;
   status = status == QUOIN_OK ? qn_pieces_build(s, b->mem, b->kinds, b->threads) : status;

@@ -103,10 +103,13 @@ typedef struct qn_building {
   qn_term *terms; size_t term_count, term_capacity;
   size_t leaf_room, material_capacity, name_capacity;
   struct qn_material_table *material_table;
-  uint32_t *keys; size_t key_room;   /* by half-space of the scene: 0, or a number below key_count, equal for equal planes */
+  uint32_t *keys; size_t key_room;   /* by half-space of the scene: 0, or a number below key_count, equal for equal planes; and
+                                        QN_KEY_FIRST with the first one of each batch */
   uint32_t key_count;
   uint8_t *kinds; size_t kind_room;  /* by leaf: qn_piece_kind */
+  size_t deepest;                    /* levels of the walk */
 } qn_building;
+#define QN_KEY_FIRST 0x80000000u
 
 /* Lists the leaves and the terms, cuts the leaves into batches, makes names and materials. */
 QN_NODISCARD quoin_status qn_tree_walk(qn_building *b);
@@ -147,6 +150,13 @@ QN_NODISCARD quoin_status qn_local_make(qn_maker *m, uint32_t node);
 /* The box of the leaf whose half-spaces are in m->local, under the top map; infinite where it is not bounded or not certain.
    Returns whether it is bounded. */
 int qn_leaf_box(const qn_maker *m, double min[3], double max[3]);
+/* extent.c: draws the box in to exact bounds, where the map takes axes to axes and numbers are rational. */
+void qn_leaf_extent(qn_maker *m, qn_leaf *leaf);
+void qn_bound_by_plane(qn_maker *m, qn_leaf *leaf, int world, qn_num at, int is_max);
+/* The one axis that a row is about, or -1. */
+int qn_row_axis(const qn_num row[4]);
+/* The world axis to which the top map takes a local one, and the place on it of local x_axis = (shift - row[3]) / row[axis]. */
+int qn_world_place(qn_maker *m, const qn_num row[4], int axis, qn_num shift, qn_num *at);
 /* Adds the leaf's half-spaces, shadows and keys to the batch. *result: QN_FORM_EMPTY under a singular map. */
 QN_NODISCARD quoin_status qn_leaf_add(qn_maker *m, qn_leaf *leaf, qn_form_result *result);
 /* All of that for a leaf of the commonest kind, a sphere that is only shifted, of plain decimals. 0: it is none. */

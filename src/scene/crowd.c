@@ -20,13 +20,11 @@ enum { STRETCH = 2048, PARTS = 64 }; /* leaves a thread takes at once; parts int
 typedef struct entry { uint64_t cell; uint32_t half; uint32_t keyed; } entry;
 typedef struct entries { entry *items; size_t count, capacity; size_t of_part[PARTS + 1]; } entries; /* in the order of their parts */
 
-typedef struct tools { uint32_t *seen; qn_forms forms; } tools; /* seen: by key, the stretch + 1 that saw it last */
-
 typedef struct finding {
   qn_building *b;
   qn_crowd *crowd;
   const qn_print_frame *frame;
-  tools *by_thread;
+  qn_forms *by_thread;   /* b null: not begun */
   entries *by_stretch;
   size_t stretches;
 } finding;
@@ -77,7 +75,7 @@ static quoin_status careful_vector(qn_forms *forms, uint32_t leaf, uint32_t half
   return ctx->failed;
 }
 
-static quoin_status look_at(const finding *f, tools *t, uint32_t leaf, uint32_t half) {
+static quoin_status look_at(const finding *f, qn_forms *forms, uint32_t leaf, uint32_t half) {
   const quoin_scene *scene = f->b->scene;
   const qn_half *h = &scene->halves[half];
   qn_crowd *crowd = f->crowd;
@@ -88,10 +86,10 @@ static quoin_status look_at(const finding *f, tools *t, uint32_t leaf, uint32_t 
   if (fit && qn_print_of(&v, crowd->prints[half])) {
     return QUOIN_OK;
   }
-  if (!t->forms.b) {
-    qn_forms_init(&t->forms, f->b);
+  if (!forms->b) {
+    qn_forms_init(forms, f->b);
   }
-  quoin_status status = careful_vector(&t->forms, leaf, half, f->frame, &v);
+  quoin_status status = careful_vector(forms, leaf, half, f->frame, &v);
   if (!qn_print_of(&v, crowd->prints[half])) {
     crowd->prints[half][0] = crowd->prints[half][1] = 0; /* sizes beyond doubles: all of these are candidates to one another */
   }
@@ -100,22 +98,22 @@ static quoin_status look_at(const finding *f, tools *t, uint32_t leaf, uint32_t 
 
 /* --- cells -------------------------------------------------------------------------------------------------------- */
 
-static uint64_t hash_of(double x, double y, int super) {
-  uint64_t h = (uint64_t)(int64_t)x * 0x9E3779B97F4A7C15u ^ ((uint64_t)(int64_t)y * 2 + (unsigned)super) * 0xC2B2AE3D27D4EB4Fu;
+static uint64_t hash_of(int64_t x, int64_t y, int super) {
+  uint64_t h = (uint64_t)x * 0x9E3779B97F4A7C15u ^ ((uint64_t)y * 2 + (unsigned)super) * 0xC2B2AE3D27D4EB4Fu;
   h ^= h >> 29;
   h *= 0xBF58476D1CE4E5B9u;
   return h ^ h >> 32;
 }
 
-/* Adds the subject to the cells it reaches into. */
+/* Adds the subject to the cells it reaches into. Fingerprints are from 0 to a few. */
 static int deal(entries *list, qn_mem *mem, const double print[2], uint32_t half, int keyed, int super) {
-  double low[2], high[2];
-  for (int k = 0; k < 2; k++) {
-    low[k] = floor((print[k] - REACH) / CELL);
-    high[k] = floor((print[k] + REACH) / CELL);
+  int64_t low[2], high[2];
+  for (int k = 0; k < 2; k++) { /* one more than the floor, so that all are positive */
+    low[k] = (int64_t)((print[k] - REACH) * (1 / CELL) + 1);
+    high[k] = (int64_t)((print[k] + REACH) * (1 / CELL) + 1);
   }
-  for (double x = low[0]; x <= high[0]; x++) {
-    for (double y = low[1]; y <= high[1]; y++) {
+  for (int64_t x = low[0]; x <= high[0]; x++) {
+    for (int64_t y = low[1]; y <= high[1]; y++) {
       if (!qn_grow(mem, &list->items, &list->capacity, list->count + 1)) {
         return 0;
       }
@@ -156,20 +154,15 @@ static quoin_status look_at_stretch(void *user, unsigned thread, size_t number) 
   finding *f = user;
   const quoin_scene *s = f->b->scene;
   qn_mem *mem = f->b->mem;
-  tools *t = &f->by_thread[thread];
   entries *list = &f->by_stretch[number];
-  if (!t->seen && !(t->seen = qn_alloc_zeroed(mem, f->b->key_count * sizeof *t->seen))) {
-    return QUOIN_E_MEMORY;
-  }
   size_t end = (number + 1) * STRETCH < s->leaf_count ? (number + 1) * STRETCH : s->leaf_count;
   for (size_t leaf = number * STRETCH; leaf < end; leaf++) {
     for (uint32_t h = s->leaves[leaf].half0; h < s->leaves[leaf].half0 + s->leaves[leaf].halves; h++) {
       uint32_t key = f->b->keys[h];
-      if (key && t->seen[key] == number + 1) {
+      if (key && !(key & QN_KEY_FIRST)) {
         continue;
       }
-      t->seen[key] = (uint32_t)number + 1;
-      quoin_status status = look_at(f, t, (uint32_t)leaf, h);
+      quoin_status status = look_at(f, &f->by_thread[thread], (uint32_t)leaf, h);
       if (status == QUOIN_OK && !deal(list, mem, f->crowd->prints[h], h, key != 0, s->halves[h].kind == QN_SUPER_BODY)) {
         status = QUOIN_E_MEMORY;
       }
@@ -249,8 +242,7 @@ quoin_status qn_crowd_find(qn_crowd *crowd, qn_building *b, const qn_print_frame
   status = status == QUOIN_OK ? qn_parallel(b->threads, f.stretches, look_at_stretch, &f, NULL) : status;
   status = status == QUOIN_OK ? qn_parallel(f.stretches > 4 ? b->threads : 1, PARTS, crowd_of_part, &f, NULL) : status;
   for (unsigned i = 0; f.by_thread && i < b->threads; i++) {
-    qn_free(b->mem, f.by_thread[i].seen, b->key_count * sizeof *f.by_thread[i].seen);
-    qn_forms_free(&f.by_thread[i].forms);
+    qn_forms_free(&f.by_thread[i]);
   }
   for (size_t i = 0; f.by_stretch && i < f.stretches; i++) {
     qn_free(b->mem, f.by_stretch[i].items, f.by_stretch[i].capacity * sizeof *f.by_stretch[i].items);

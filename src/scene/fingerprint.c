@@ -24,7 +24,7 @@ static const double WEIGHTS[2][QN_PRINT_SIZE] = {
 
 /* Inside this range no product below leaves the range of doubles. */
 static int fit_for_doubles(double v) {
-  return v == 0 || (fabs(v) < 0x1p100 && fabs(v) > 0x1p-100);
+  return (v == 0) | ((fabs(v) < 0x1p100) & (fabs(v) > 0x1p-100));
 }
 
 /* The constant of a row in the frame's coordinates, with the sum of magnitudes. */
@@ -76,6 +76,31 @@ void qn_print_frame_of(const quoin_scene *scene, qn_print_frame *out) {
   }
 }
 
+/* Each row along its own axis: a sphere that is only shifted, and many others. */
+static int is_upright(const qn_quadric_shadow *q) {
+  return ((q->row[0][1] != 0) | (q->row[0][2] != 0) | (q->row[1][0] != 0) | (q->row[1][2] != 0) | (q->row[2][0] != 0) | (q->row[2][1] != 0)) == 0;
+}
+
+/* qn_vector_of for such a body: the same sums without what is 0. */
+static int upright_vector(const qn_quadric_shadow *q, const qn_leaf *leaf, const qn_print_frame *frame, double unit, qn_vector *out) {
+  int fit = fit_for_doubles(q->l) & fit_for_doubles(q->k);
+  double v = q->k, m = fabs(v);
+  for (int i = 0; i < 3; i++) {
+    double d = q->row[i][i], e = q->row[i][3], s = q->s[i];
+    fit &= fit_for_doubles(d) & fit_for_doubles(e) & fit_for_doubles(s);
+    double p = d * (leaf->pivot[i] - frame->origin[i]), w = e - p, wm = fabs(e) + fabs(p), l = i == 2 ? q->l : 0;
+    out->c[i] = s * (d * d);
+    out->magnitude[i] = fabs(out->c[i]);
+    out->c[6 + i] = 2 * unit * (s * (d * w) + l * d);
+    out->magnitude[6 + i] = 2 * unit * (fabs(s) * (fabs(d) * wm) + fabs(l) * fabs(d));
+    v += s * (w * w) + 2 * l * w;
+    m += fabs(s) * (wm * wm) + 2 * fabs(l) * wm;
+  }
+  out->c[9] = v * unit * unit;
+  out->magnitude[9] = m * unit * unit;
+  return fit;
+}
+
 int qn_vector_of(const quoin_scene *scene, const qn_leaf *leaf, const qn_half *half, const qn_print_frame *frame, qn_vector *out) {
   int fit = fit_for_doubles(leaf->pivot[0]) && fit_for_doubles(leaf->pivot[1]) && fit_for_doubles(leaf->pivot[2]);
   double unit = ldexp(1, -frame->scale), units[4] = {1, 1, 1, unit};
@@ -94,6 +119,9 @@ int qn_vector_of(const quoin_scene *scene, const qn_leaf *leaf, const qn_half *h
     return fit;
   }
   const qn_quadric_shadow *q = &scene->quadrics[half->shadow];
+  if (half->kind == QN_QUADRIC_BODY && is_upright(q)) {
+    return fit & upright_vector(q, leaf, frame, unit, out);
+  }
   double r[3][4], m[3][4];
   for (int i = 0; i < 3; i++) {
     fit = fit && fit_for_doubles(q->s[i]);
@@ -149,7 +177,7 @@ int qn_vector_sign(const qn_vector *v) {
 int qn_print_of(const qn_vector *v, double print[2]) {
   double largest = 0, sums[2] = {0, 0}, square = 0, error = 0;
   for (int i = 0; i < QN_PRINT_SIZE; i++) {
-    largest = fmax(largest, fabs(v->c[i]));
+    largest = fabs(v->c[i]) > largest ? fabs(v->c[i]) : largest;
   }
   if (!(largest < 0x1p900 && largest > 0x1p-900)) {
     return 0;

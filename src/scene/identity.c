@@ -268,7 +268,7 @@ static int normal_sign(const qn_plane_shadow *p) {
 static quoin_status identify(finder *f, uint32_t leaf, uint32_t half) {
   quoin_scene *scene = f->b->scene;
   qn_half *h = &scene->halves[half];
-  uint32_t key = f->b->keys[half], surface = NONE;
+  uint32_t key = f->b->keys[half] & ~QN_KEY_FIRST, surface = NONE;
   int normal = key ? normal_sign(&scene->planes[h->shadow]) : 1;
   if (key && f->by_key[key] != NONE) {
     surface = f->by_key[key];

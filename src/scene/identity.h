@@ -34,7 +34,7 @@ QN_NODISCARD quoin_status qn_forms_other(qn_forms *f, uint32_t leaf, qn_half_for
 /* --- crowd.c: fingerprints, and which half-spaces have another near theirs ---------------------------------------- */
 
 enum {
-  QN_SUBJECT = 1, /* its fingerprint is made: it has no key, or is the first with its key in a stretch of leaves */
+  QN_SUBJECT = 1, /* its fingerprint is made: it has no key, or is the first with its key in a batch */
   QN_CROWDED = 2  /* another subject may have its fingerprint, or its side is not known: the exact forms are to be compared */
 };
 

@@ -138,7 +138,7 @@ static quoin_status renumber(void *user, unsigned thread, size_t i) {
   joining *j = user;
   qn_batch *t = &j->b->batches[i];
   for (size_t p = 0; p < t->place_count; p++) {
-    t->global[p] += j->keys[part_of(j, &t->places[p])];
+    t->global[p] = (t->global[p] + j->keys[part_of(j, &t->places[p])]) | QN_KEY_FIRST;
   }
   return QUOIN_OK;
 }

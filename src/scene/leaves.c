@@ -132,14 +132,19 @@ static quoin_status make_batch(void *user, unsigned thread, size_t number) {
   return status;
 }
 
+enum { DEEP = 1 << 14 }; /* levels: below them each thread's stack of maps would take 16 MB and more, so one thread does all */
+
 quoin_status qn_leaves_make(qn_building *b) {
   quoin_scene *s = b->scene;
+  unsigned threads = b->threads;
   b->leaf_room = b->visit_count;
   s->leaves = qn_alloc(b->mem, b->leaf_room * sizeof *s->leaves);
   making all = {b, qn_alloc_zeroed(b->mem, b->threads * sizeof *all.makers)};
   quoin_status status = QUOIN_E_MEMORY;
   if (s->leaves && all.makers) {
+    b->threads = b->deepest > DEEP ? 1 : threads;
     status = qn_parallel_part(b, b->batch_count, make_batch, &all, 0.1, 0.55);
+    b->threads = threads;
   }
   for (unsigned i = 0; all.makers && i < b->threads; i++) {
     end(&all.makers[i]);

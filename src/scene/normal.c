@@ -155,15 +155,6 @@ static int read_gates(maker *m) {
 
 /* --- unions --------------------------------------------------------------------------------------------------------- */
 
-static float down(double v) {
-  float f = (float)v;
-  return (double)f > v ? nextafterf(f, -INFINITY) : f;
-}
-static float up(double v) {
-  float f = (float)v;
-  return (double)f < v ? nextafterf(f, INFINITY) : f;
-}
-
 static int add_term(maker *m, const draft *d) {
   qn_normal *n = m->n;
   if (!qn_grow(m->mem, &n->terms, &n->term_capacity, n->term_count + 1) || !qn_grow(m->mem, &n->leaves, &n->leaf_capacity, n->leaf_count + d->leaves)) {
@@ -172,7 +163,7 @@ static int add_term(maker *m, const draft *d) {
   qn_nterm *t = &n->terms[n->term_count++];
   *t = (qn_nterm){.leaf0 = (uint32_t)n->leaf_count, .leaves = d->leaves, .plus0 = d->plus0, .plus = d->plus, .minus0 = d->minus0, .minus = d->minus};
   for (int i = 0; i < 3; i++) {
-    t->min[i] = down(d->min[i]), t->max[i] = up(d->max[i]);
+    t->min[i] = qn_round_down(d->min[i]), t->max[i] = qn_round_up(d->max[i]);
   }
   memcpy(n->leaves + n->leaf_count, m->names + d->leaf0, d->leaves * sizeof *n->leaves);
   n->leaf_count += d->leaves;
@@ -619,8 +610,8 @@ static quoin_status plain_union(maker *m) {
   for (size_t i = 0; i < s->unbounded_count; i++) {
     const qn_leaf *l = &s->leaves[s->unbounded[i]];
     n->leaves[narrow + i] = s->unbounded[i];
-    n->terms[narrow + i] = (qn_nterm){.min = {down(l->min[0]), down(l->min[1]), down(l->min[2])},
-                                      .max = {up(l->max[0]), up(l->max[1]), up(l->max[2])}, .leaf0 = (uint32_t)(narrow + i), .leaves = 1};
+    n->terms[narrow + i] = (qn_nterm){.min = {qn_round_down(l->min[0]), qn_round_down(l->min[1]), qn_round_down(l->min[2])},
+                                      .max = {qn_round_up(l->max[0]), qn_round_up(l->max[1]), qn_round_up(l->max[2])}, .leaf0 = (uint32_t)(narrow + i), .leaves = 1};
   }
   n->made = 1;
   return qn_parallel(m->threads, (s->bvh.node_count + STRETCH - 1) / STRETCH, terms_of_nodes, m, NULL);

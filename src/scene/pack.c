@@ -66,7 +66,11 @@ static quoin_status write(void *user, unsigned thread, size_t number) {
         s->quadrics[quadrics] = t->quadrics[half.shadow];
         half.shadow = (uint32_t)quadrics++;
       }
-      b->keys[halves] = t->keys[h] ? t->global[t->keys[h] - 1] : 0;
+      uint32_t key = t->keys[h] ? t->global[t->keys[h] - 1] : 0;
+      b->keys[halves] = key;
+      if (key) { /* the next one with this key is not the first */
+        t->global[t->keys[h] - 1] = key & ~QN_KEY_FIRST;
+      }
       s->halves[halves++] = half;
     }
     if (v->name == QN_NO_NAME) {

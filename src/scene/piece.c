@@ -13,7 +13,7 @@ static double row_reach(const qn_leaf *l, const double row[4]) {
   for (int j = 0; j < 3; j++) {
     most += fabs(row[j]) * fmax(fabs(l->min[j] - l->pivot[j]), fabs(l->max[j] - l->pivot[j]));
   }
-  return most * (1 + 0x1p-40);
+  return most * QN_WIDE_SLACK;
 }
 
 static int is_sphere(const quoin_scene *scene, const qn_leaf *l) {
@@ -96,7 +96,7 @@ static int is_round(const quoin_scene *scene, const qn_leaf *l, qn_piece_round *
       return 0;
     }
   }
-  round->reach = sqrt(reach) * (1 + 0x1p-40);
+  round->reach = sqrt(reach) * QN_WIDE_SLACK;
   return round->surface[0] != UINT32_MAX && isfinite(round->reach);
 }
 
@@ -119,11 +119,14 @@ static int is_plain(const quoin_scene *scene, const qn_leaf *l) {
     }
     for (size_t k = 0; k < count; k++) {
       double v = fabs(numbers[k]);
-      large = fmax(large, v);
-      small = v > 0 ? fmin(small, v) : small;
+      large = v > large ? v : large;
+      small = v > 0 && v < small ? v : small;
     }
   }
-  return large < 0x1p+100 && small > 0x1p-100;
+  for (int j = 0; j < 3; j++) {
+    large = fmax(large, fabs(l->pivot[j]));
+  }
+  return large <= QN_WIDE_LARGEST && small >= 1 / QN_WIDE_LARGEST;
 }
 
 qn_piece_kind qn_piece_kind_of(const quoin_scene *scene, const qn_leaf *l) {
@@ -157,7 +160,7 @@ static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind k
     qn_piece_sphere s = {.head = {kind, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .surface = h->surface};
     memcpy(s.centre, l->pivot, sizeof s.centre);
     for (int i = 0; i < 3; i++) {
-      double off = fabs(q->row[i][3] / scale) * (1 + 0x1p-40);
+      double off = fabs(q->row[i][3] / scale) * QN_WIDE_SLACK;
       s.off = off > s.off ? off : s.off;
     }
     memcpy(line, &s, sizeof s);

@@ -24,7 +24,7 @@ typedef struct qn_piece_head {
 typedef struct qn_piece_sphere {
   qn_piece_head head;
   double centre[3]; /* the pivot: the true centre is within `off` of it, axis by axis */
-  double r2;        /* relative error 4u at most */
+  double r2;        /* relative error 8u at most, the squares' shares included */
   double off;
   uint32_t surface;
   uint32_t unused[3];

@@ -28,11 +28,10 @@ int qn_leaf_quick(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_result *res
   }
   q.k = -square;
   for (int i = 0; i < 3; i++) {
-    qn_num t = map->exact[4 * i + 3], minus = r;
-    minus.u.m = -minus.u.m;
-    double rest, below, above;
+    qn_num t = map->exact[4 * i + 3];
+    double rest;
     if (!qn_num_quick_pair(t, &leaf->pivot[i], &rest) || !usual_size(leaf->pivot[i]) ||
-        !qn_num_quick_sum(t, minus, &leaf->min[i], &above) || !qn_num_quick_sum(t, r, &below, &leaf->max[i])) {
+        !qn_num_quick_span(t, r, &leaf->min[i], &leaf->max[i])) {
       return 0;
     }
     q.row[i][i] = 1;

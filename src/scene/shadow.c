@@ -279,97 +279,25 @@ static int rows_by_numbers(qn_maker *m, const qn_leaf *leaf, double (*rows)[3][4
   return regular ? 1 : -1;
 }
 
-/* Draws the box in to an exact bound along a world axis, rounded outward. */
-static void draw_in(qn_ctx *ctx, qn_leaf *leaf, int axis, qn_num at, int is_max) {
-  double v = qn_num_to_double(at);
-  if (!isfinite(v)) {
-    return;
-  }
-  int below = qn_num_cmp(ctx, qn_num_from_double(ctx, v), at);
-  v = is_max && below < 0 ? nextafter(v, INFINITY) : !is_max && below > 0 ? nextafter(v, -INFINITY) : v;
-  if (is_max && v < leaf->max[axis]) {
-    leaf->max[axis] = v;
-  } else if (!is_max && v > leaf->min[axis]) {
-    leaf->min[axis] = v;
-  }
-}
-
-/* The one axis that a row is about, or -1. */
-static int axis_of(const qn_num row[4]) {
-  int axis = -1;
-  for (int k = 0; k < 3; k++) {
-    if (!qn_num_is_zero(row[k])) {
-      if (axis >= 0) {
-        return -1;
-      }
-      axis = k;
-    }
-  }
-  return axis;
-}
-
-/* The world axis to which the top map takes a local one, and the place on it of local x_axis = (shift - row[3]) / row[axis]. */
-static int world_place(qn_maker *m, const qn_num row[4], int axis, qn_num shift, qn_num *at) {
-  const qn_composed *map = &m->maps.stack[m->maps.count - 1];
-  qn_ctx *ctx = &m->maps.scratch;
-  int world = 0;
-  while (qn_num_is_zero(map->exact[4 * world + axis])) {
-    world++;
-  }
-  *at = qn_num_div(ctx, qn_num_sub(ctx, shift, row[3]), row[axis]);
-  *at = qn_num_add(ctx, qn_num_mul(ctx, map->exact[4 * world + axis], *at), map->exact[4 * world + 3]);
-  return world;
-}
-
 /* The key of a plane, 0 for one that is not aligned. An aligned plane also bounds the box, exactly. */
 static uint32_t key_of(qn_maker *m, const qn_half_form *h, const double row[4], qn_leaf *leaf) {
-  int axis = axis_of(h->row[0]);
+  int axis = qn_row_axis(h->row[0]);
   if (axis < 0 || !m->maps.stack[m->maps.count - 1].aligned) {
     return 0;
   }
   qn_ctx *ctx = &m->maps.scratch;
   qn_mark mark = qn_arena_mark(&ctx->arena);
   qn_num at;
-  int world = world_place(m, h->row[0], axis, QN_NUM_ZERO, &at);
+  int world = qn_world_place(m, h->row[0], axis, QN_NUM_ZERO, &at);
   uint32_t key = UINT32_MAX;
   if (ctx->failed == QUOIN_OK) {
-    if (at.kind == QN_NUM_SMALL && leaf->bounded) {
-      draw_in(ctx, leaf, world, at, row[world] > 0);
+    if (leaf->bounded) {
+      qn_bound_by_plane(m, leaf, world, at, row[world] > 0);
     }
     key = qn_key_of(m, world, at);
   }
   qn_arena_release(&ctx->arena, mark);
   return key;
-}
-
-/* An aligned ellipsoid or cylinder: s_i X_i^2 + ... <= -k bounds X_i by the root of -k / s_i, exactly where that is rational. */
-static void bound_by_body(qn_maker *m, const qn_half_form *h, qn_leaf *leaf) {
-  qn_ctx *ctx = &m->maps.scratch;
-  if (h->kind != QN_QUADRIC_BODY || !m->maps.stack[m->maps.count - 1].aligned || !qn_num_is_zero(h->l) || qn_num_sign(h->k) >= 0 ||
-      qn_num_sign(h->s[0]) < 0 || qn_num_sign(h->s[1]) < 0 || qn_num_sign(h->s[2]) < 0) {
-    return;
-  }
-  qn_mark mark = qn_arena_mark(&ctx->arena);
-  qn_num root = QN_NUM_ZERO;
-  for (int i = 0; i < 3; i++) {
-    int axis = axis_of(h->row[i]);
-    if (axis < 0 || qn_num_is_zero(h->s[i])) {
-      continue;
-    }
-    if (i == 0 || !qn_num_equal(h->s[i], h->s[i - 1])) {
-      root = qn_num_sqrt(ctx, qn_num_div(ctx, qn_num_neg(ctx, h->k), h->s[i]));
-    }
-    if (root.kind != QN_NUM_SMALL) {
-      continue;
-    }
-    qn_num one, other;
-    int world = world_place(m, h->row[i], axis, root, &one);
-    world_place(m, h->row[i], axis, qn_num_neg(ctx, root), &other);
-    int greater = qn_num_cmp(ctx, one, other) > 0;
-    draw_in(ctx, leaf, world, greater ? one : other, 1);
-    draw_in(ctx, leaf, world, greater ? other : one, 0);
-  }
-  qn_arena_release(&ctx->arena, mark);
 }
 
 static int is_convex(const qn_half_form *h) {
@@ -415,9 +343,6 @@ static quoin_status add_half(qn_maker *m, const qn_half_form *h, double rows[3][
     }
     q->l = shadow_of(h->l);
     q->k = shadow_of(h->k);
-    if (leaf->bounded) {
-      bound_by_body(m, h, leaf);
-    }
   }
   b->keys[b->half_count++] = key;
   return QUOIN_OK;
@@ -441,6 +366,9 @@ quoin_status qn_leaf_add(qn_maker *m, qn_leaf *leaf, qn_form_result *result) {
   for (size_t h = 0; status == QUOIN_OK && done > 0 && h < l->count; h++) {
     leaf->convex &= (uint8_t)is_convex(&l->halves[h]);
     status = m->batch->half_count < UINT32_MAX / 2 ? add_half(m, &l->halves[h], rows[h], leaf) : QUOIN_E_LIMIT;
+  }
+  if (status == QUOIN_OK && done > 0) {
+    qn_leaf_extent(m, leaf);
   }
   qn_arena_release(&ctx->arena, mark);
   return status;

@@ -125,6 +125,7 @@ static quoin_status enter(walk *w, uint32_t node, uint32_t term, int negated, ui
   }
   if (status == QUOIN_OK) {
     w->stack[w->count++] = (level){node, first, term, material, name, (uint8_t)negated, 1};
+    b->deepest = w->count > b->deepest ? w->count : b->deepest;
   }
   return status;
 }

@@ -99,7 +99,7 @@ int qn_superquadric_sign(qn_ctx *ctx, qn_num e, qn_num n, const qn_num X[3]);
    2^-40 of the solid's size may be missed (S10). The value is positive before the first and changes sign at each: at both ends of
    an
    enclosure the sign is certain for the line with these O and D. Returns the count. Cost: 0.4 to 1.5 us; very
-   near a tangent, and with exponents under 2^-6 (but e = 0) or over 8, 10 us to a few ms. */
+   near a tangent, and with exponents under 2^-9 (but e = 0) or over 8, 10 us to a few ms. */
 size_t qn_superquadric_roots(double e, double n, const double O[3], const double D[3], double (*roots)[2], size_t max);
 
 #endif

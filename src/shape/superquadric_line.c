@@ -17,7 +17,7 @@ static unsigned halves(double p) {
 }
 
 int qn_super_line_make(double e, double n, const double O[3], const double D[3], qn_super_line *out) {
-  if (!((e >= QN_SUPER_LEAST || e == 0) && n >= QN_SUPER_LEAST && e <= QN_SUPER_MOST && n <= QN_SUPER_MOST)) {
+  if (!((e >= QN_SUPER_LEAST || e == 0) && n >= QN_SUPER_LEAST && e <= QN_SUPER_MOST && n <= QN_SUPER_MOST && e <= QN_SUPER_QUOTIENT * n)) {
     return 0;
   }
   double most = 0;

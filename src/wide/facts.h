@@ -83,7 +83,7 @@ static void see_directions(qn_packet *p) {
   p->dd_min = INFINITY, p->dd_max = 0;
   for (int k = 0; k < SUBS; k++) {
     extremes(p->idd + k * SUB_LANES, &low, &high);
-    p->dd_min = least(p->dd_min, (1 - 0x1p-40) / high), p->dd_max = most(p->dd_max, (1 + 0x1p-40) / low);
+    p->dd_min = least(p->dd_min, 1 / (QN_WIDE_SLACK * high)), p->dd_max = most(p->dd_max, QN_WIDE_SLACK / low);
   }
   for (int i = 0; i < 3; i++) {
     double dlow = INFINITY, dhigh = -INFINITY;

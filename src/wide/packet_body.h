@@ -304,7 +304,7 @@ static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
       int o = g * QN_W;
       vm in = vmask((unsigned)(mask >> o) & QN_ALL_BITS);
       vd d = vload(p->d[i] + o), step = vmul(vload(at->t + o), d), x = vadd(vload(p->o[i] + o), step);
-      vd slack = vfma(vadd(vabs(step), vabs(x)), vset(0x1p-40), vmul(vmul(vload(w->tolerance + o), vabs(d)), vset(4)));
+      vd slack = vfma(vadd(vabs(step), vabs(x)), vset(QN_WIDE_SPOT), vmul(vmul(vload(w->tolerance + o), vabs(d)), vset(4)));
       vstore(low + o, vpick(in, vsub(x, slack), vset(INFINITY)));
       vstore(high + o, vpick(in, vadd(x, slack), vset(-INFINITY)));
     }

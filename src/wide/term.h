@@ -43,7 +43,7 @@ static void meet_prepare(const walk *w, uint32_t leaf, meet_constants *k) {
       }
       reach += size * size;
     }
-    body_prepare(&w->f, l->pivot, q->row, q->s, q->l, q->k, sqrt(reach) * (1 + 0x1p-40), half->surface, leaf, &k->body[k->bodies++]);
+    body_prepare(&w->f, l->pivot, q->row, q->s, q->l, q->k, sqrt(reach) * QN_WIDE_SLACK, half->surface, leaf, &k->body[k->bodies++]);
   }
 }
 

@@ -28,11 +28,11 @@ typedef struct walk {
 /* A float at most, or at least, v: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
 QN_INLINE float down(double v) {
   float f = (float)v;
-  return f - (fabsf(f) * 0x1p-22f + 0x1p-126f);
+  return f - (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
 }
 QN_INLINE float up(double v) {
   float f = (float)v;
-  return f + (fabsf(f) * 0x1p-22f + 0x1p-126f);
+  return f + (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
 }
 
 /* The lanes of sub-packets: byte k all ones where bit k is set; or, where a sub-packet is one lane, the bits themselves. */

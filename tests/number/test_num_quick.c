@@ -92,40 +92,40 @@ static void squares(void **unused) {
   assert_int_equal(mem.used, 0);
 }
 
-static void sums(void **unused) {
+static void spans(void **unused) {
   (void)unused;
   qn_mem mem;
   qn_mem_init(&mem, NULL);
   qn_ctx ctx;
   qn_ctx_init(&ctx, &mem);
-  size_t done = 0, exact = 0, refused = 0, zero = 0;
+  size_t done = 0, exact = 0, refused = 0, zero = 0, across = 0;
   for (int i = 0; i < 400000; i++) {
     qn_mark mark = qn_arena_mark(&ctx.arena);
-    qn_num a = draw(&ctx, i % 5 == 0), b = bits() % 16 ? draw(&ctx, i % 7 == 0) : qn_num_neg(&ctx, a);
-    if (bits() % 4 == 0 && b.u.m) { /* close: much cancels */
-      b = a;
-      b.u.m = -a.u.m + (int64_t)(bits() % 3) * 2;
-      b = b.u.m ? qn_num_mul(&ctx, qn_num_from_int(&ctx, b.u.m), (qn_num){{1}, a.a, a.b, QN_NUM_SMALL}) : QN_NUM_ZERO;
-      if (b.kind != QN_NUM_SMALL) {
-        continue;
-      }
+    qn_num a = draw(&ctx, i % 5 == 0), b = bits() % 16 ? draw(&ctx, i % 7 == 0) : a;
+    if (bits() % 4 == 0 && a.u.m) { /* close in size: much cancels */
+      b = qn_num_mul(&ctx, qn_num_from_int(&ctx, a.u.m + (int64_t)(bits() % 3) - 1), (qn_num){{1}, a.a, a.b, QN_NUM_SMALL});
     }
+    b = qn_num_abs(&ctx, b);
     double down, up;
-    if (qn_num_quick_sum(a, b, &down, &up)) {
-      qn_num s = qn_num_add(&ctx, a, b);
-      int below = qn_num_cmp(&ctx, qn_num_from_double(&ctx, down), s), above = qn_num_cmp(&ctx, qn_num_from_double(&ctx, up), s);
+    if (qn_num_quick_span(a, b, &down, &up)) {
+      qn_num low = qn_num_sub(&ctx, a, b), high = qn_num_add(&ctx, a, b);
+      int below = qn_num_cmp(&ctx, qn_num_from_double(&ctx, down), low), above = qn_num_cmp(&ctx, qn_num_from_double(&ctx, up), high);
       assert_true(below <= 0 && above >= 0);
-      assert_true(down == up ? below == 0 : below < 0 && above > 0 && nextafter(down, INFINITY) == up);
+      assert_true(below == 0 || qn_num_cmp(&ctx, qn_num_from_double(&ctx, nextafter(down, INFINITY)), low) > 0);
+      assert_true(above == 0 || qn_num_cmp(&ctx, qn_num_from_double(&ctx, nextafter(up, -INFINITY)), high) < 0);
       done++;
-      exact += down == up;
-      zero += down == 0 && up == 0;
+      exact += below == 0 && above == 0;
+      zero += down == 0 || up == 0;
+      across += down < 0 && up > 0;
+      assert_false(signbit(down) && down == 0);
+      assert_false(signbit(up) && up == 0);
     } else {
       refused++;
     }
     qn_arena_release(&ctx.arena, mark);
   }
-  print_message("%zu sums, %zu exact, %zu zero, %zu refused\n", done, exact, zero, refused);
-  assert_true(done > 150000 && exact > 20000 && refused > 20000 && zero > 5000 && done - exact > 50000);
+  print_message("%zu spans, %zu exact, %zu from or to zero, %zu across, %zu refused\n", done, exact, zero, across, refused);
+  assert_true(done > 150000 && exact > 20000 && refused > 20000 && zero > 5000 && across > 20000 && done - exact > 50000);
   qn_ctx_free(&ctx);
   assert_int_equal(mem.used, 0);
 }
@@ -140,12 +140,13 @@ static void others_are_refused(void **unused) {
   qn_num third = qn_num_div(&ctx, qn_num_from_int(&ctx, 1), qn_num_from_int(&ctx, 3));
   assert_false(qn_num_quick_pair(third, &x, &y));
   assert_false(qn_num_quick_square(third, &x));
-  assert_false(qn_num_quick_sum(QN_NUM_ONE, third, &x, &y));
+  assert_false(qn_num_quick_span(QN_NUM_ONE, third, &x, &y));
+  assert_false(qn_num_quick_span(QN_NUM_ONE, qn_num_from_int(&ctx, -1), &x, &y));
   assert_false(qn_num_quick_pair((qn_num){{1}, 401, 0, QN_NUM_SMALL}, &x, &y));
   qn_ctx_free(&ctx);
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs), cmocka_unit_test(squares), cmocka_unit_test(sums), cmocka_unit_test(others_are_refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs), cmocka_unit_test(squares), cmocka_unit_test(spans), cmocka_unit_test(others_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -303,10 +303,96 @@ static void random_models(void **state) {
   }
 }
 
+/* Old failures, and cases that the review of the bounds brought up: the answer known by itself, then every body in every lane. */
+typedef struct known {
+  const char *name, *text;
+  double o[3], d[3], from, to;
+  int found;
+  double t;
+  double other[6]; /* the ray of half of the other lanes */
+} known;
+static const known KNOWN[] = {
+  {"a slope that comes out as 0 and is not", "translate([2,1.3,1.8]) scale([1,0.01,1]) { translate([1,-1,1]) halfspace(n=[-1,1,0],d=1); translate([1,-2,-1]) rotate([0,30,0]) halfspace(n=[2,1,1],d=2); }",
+   {0x1.2p+1, 0x1.4a3d70a3d70a4p+0, 0x1.4666666666666p+1}, {0x1p-1, 0x1.47ae147ae147bp-8, -0x1p+0}, 0, HUGE_VAL, 1, 24019198012642304, {2.25, 1.29, 2.5, 0.5, 0.005, -1}},
+  {"no axis in one way: empty slots of a node", "translate([0,-1000000,0]) difference() { translate([0,0,1]) sphere(2); translate([-2,-2,-2]) rotate([0,30,0]) intersection() { quadric([2,-2,2,1,0,2,-1,-1,-2,-1]); sphere(4); } }",
+   {1.5, -1000000.5, -2.5}, {-3.1, -3.1, 2}, 0, HUGE_VAL, 0, 0, {-1.5, -1000004, 0, 0.5, 4, -4.5}},
+  {"a range shorter than the error", "scale([1e20,1e20,1e20]) { translate([2,2,2]) halfspace(n=[0,0,1],d=0); translate([0,2,-1]) rotate([0,90,0]) cube([1,2,3]); }",
+   {-2.75e20, 6e20, 0}, {0, -1e20, 0.02}, 0, 6, 0, 0, {-2.75e20, 6e20, 0, 0, -1e20, 0.02}},
+  {"along an edge, from its end on", "difference() { halfspace(n=[0,0,1],d=3); difference() { translate([-2,0,-2]) cylinder(r=[1,1],h=1); translate([-1,2,1]) rotate([180,0,0]) cube([2,3,3]); } }",
+   {-4, 2, 1}, {1, 0, 0}, 5, HUGE_VAL, 0, 0, {-4, 2, 1, 1, 0, 0}},
+  {"along an edge, up to its end", "difference() { halfspace(n=[0,0,1],d=3); difference() { translate([-2,0,-2]) cylinder(r=[1,1],h=1); translate([-1,2,1]) rotate([180,0,0]) cube([2,3,3]); } }",
+   {-4, 2, 1}, {1, 0, 0}, -HUGE_VAL, 3, 0, 0, {-4, 2, 1, 1, 0, 0}},
+  {"a superquadric smaller than 2^-64", "scale([1e-20,1e-20,1e-20]) translate([0,-1,0]) superquadric(r=[1,2,3],e=0.5,n=0.5);",
+   {-1e-20, -0.5e-20, -2e-20}, {-1.2e-20, 3.6e-20, 4.4e-20}, 0, HUGE_VAL, 0, 0, {0, 0, -9e-20, 0, 0, 1e-20}},
+  {"surfaces of several leaves at one place",
+   "difference() { translate([2,-1,1]) rotate([180,0,0]) hyperboloid(h=1,r=5,rc=3); difference() { translate([1,0,0]) cylinder(r=1,h=2); difference() { translate([2,1,-1]) rotate([0,30,0]) "
+   "cylinder(r=2,h=2,$fn=6); translate([1,0,-1]) rotate([180,0,0]) sphere(1); } translate([1,1,0]) cylinder(r1=2,r2=1,h=1); } }",
+   {-1, -2, 2}, {-1, -1, 1}, -HUGE_VAL, HUGE_VAL, 1, -2, {-1, -2, 2, -1, -1, 1}},
+  {"the box of a quadric with equal squares",
+   "difference() { rotate([0,90,0]) intersection() { quadric([2,2,2,0,2,0,1,-1,1,-2]); sphere(4); } translate([0,-1,2]) rotate([180,0,0]) intersection() { quadric([-1,0,-2,-1,-1,-1,1,0,-1,2]); sphere(4); } }",
+   {0.968, -5, 0.96}, {0, 1, 0}, 0, HUGE_VAL, 1, NAN, {-1, -5, 0.9, 0, 1, 0}},
+  {"an origin so far that its rounding is larger than the leaf", "cylinder(r=1,h=2);", {-0x1p+56, -0x1p+55, 1}, {2, 1, 0}, 0, HUGE_VAL, 1, 0x1p+55, {-0x1p+56, -0x1p+55, 1, 2, 1, 0}},
+  {"an origin beyond floats", "sphere(1);", {-0x1p+140, 0, 0}, {1, 0, 0}, 0, HUGE_VAL, 1, 0x1p+140, {-0x1p+140, 0, 0, 1, 0, 0}},
+  {"a solid beyond floats", "translate([1e300,0,0]) cube(2);", {0, 1, 1}, {1, 0, 0}, 0, HUGE_VAL, 1, 1e300, {0, 1, 1, 1, 0, 0}},
+  {"a solid beyond the ends that are not there", "translate([1e160,0,0]) sphere(1e155);", {0, 0, 0}, {1, 0, 0}, 0, HUGE_VAL, 1, NAN, {0, 0, 0, 1, 0, 0}},
+  {"a subnormal component", "rotate([0,0,0.5]) cube(2,center=true);", {-5, 0, 0}, {1, 0x1p-1070, 0}, 0, HUGE_VAL, 1, NAN, {-5, 0, 0, 1, 0x1.8p-1069, 0}},
+  {"a short direction", "sphere(1);", {-3, 0, 0}, {0x1p-600, 0, 0}, 0, HUGE_VAL, 1, 0x1p+601, {-3, 0, 0, 0x1p-600, 0, 0}},
+  {"a range of one point, inside", "sphere(2);", {0, 0, 0}, {1, 0, 0}, 1, 1, 0, 0, {0, 0, 0, 1, 0, 0}},
+  {"a range of one point, on the surface", "sphere(2);", {0, 0, 0}, {1, 0, 0}, 2, 2, 0, 0, {0, 0, 0, 1, 0, 0}},
+  {"a range before any end", "sphere(2);", {0, 0, 0}, {1, 0, 0}, -1e308, -1e200, 0, 0, {0, 0, 0, 1, 0, 0}},
+  {"ends beside the range", "sphere(2);", {0, 0, 0}, {1, 0, 0}, -0x1.0000000000001p+1, 0x1.fffffffffffffp+0, 1, -2, {0, 0, 0, 1, 0, 0}},
+  {"leaving at the end of the range", "sphere(2);", {0, 0, 0}, {1, 0, 0}, 0, 2, 1, 2, {0, 0, 0, 1, 0, 0}},
+  {"leaving just after the range", "sphere(2);", {0, 0, 0}, {1, 0, 0}, 0, 0x1.fffffffffffffp+0, 0, 0, {0, 0, 0, 1, 0, 0}},
+  {"down a paraboloid's axis", "paraboloid(h=4,r=2);", {0.5, 0.5, -1}, {0, 0, 1}, 0, HUGE_VAL, 1, 1.5, {0.25, 0.5, -1, 0, 0, 1}},
+  {"along a cylinder's axis, near its wall", "cylinder(r=5,h=2);", {3, 0x1.ffffffffffffp+1, -1}, {0, 0, 1}, 0, HUGE_VAL, 1, 1, {3, 4.5, -1, 0, 0, 1}},
+  {"along a cylinder's axis, just out of it", "cylinder(r=5,h=2);", {3, 0x1.0000000000001p+2, -1}, {0, 0, 1}, 0, HUGE_VAL, 0, 0, {3, 3, -1, 0, 0, 1}},
+};
+
+static void known_cases(void **state) {
+  (void)state;
+  for (size_t n = 0; n < sizeof KNOWN / sizeof *KNOWN; n++) {
+    const known *c = &KNOWN[n];
+    ask a;
+    ask_open(&a, c->text);
+    quoin_ray rays[2] = {{.from = c->from, .to = c->to}, {.from = c->from, .to = c->to}};
+    for (int i = 0; i < 3; i++) {
+      rays[0].o[i] = c->o[i], rays[0].d[i] = c->d[i], rays[1].o[i] = c->other[i], rays[1].d[i] = c->other[3 + i];
+    }
+    const truth want[2] = {weave_ray(&a, &rays[0]), weave_ray(&a, &rays[1])};
+    if (want[0].found != c->found || (c->found && !isnan(c->t) && want[0].t != c->t)) {
+      print_error("%s: woven: found %d, t %.17g\n", c->name, want[0].found, want[0].t);
+      failures++;
+    }
+    quoin_hit hit;
+    assert_int_equal(quoin_first_hit(a.scene, a.work, &rays[0], &hit), QUOIN_OK);
+    if (hit.found != want[0].found || (hit.found && (memcmp(&hit.t, &want[0].t, sizeof hit.t) || hit.part != want[0].part || hit.role != want[0].role))) {
+      print_error("%s: the first hit is another\n", c->name);
+      failures++;
+    }
+    static qn_packet p;
+    for (unsigned lane = 0; lane < QN_LANES; lane++) {
+      uint8_t lane_of[QN_LANES];
+      for (unsigned i = 0; i < QN_LANES; i++) {
+        lane_of[i] = i != lane && (i + n) % 2;
+      }
+      for (size_t body = 0; body < body_count; body++) {
+        fill_packet(&p, rays, QN_LANES, lane_of);
+        judge(&a, c->name, (kind){0, 0, 0}, body, &p, ~(uint64_t)0, rays, want, lane_of);
+        fill_packet(&p, rays, QN_FEW, lane_of);
+        judge(&a, c->name, (kind){0, 0, 0}, body, &p, 0xff, rays, want, lane_of);
+      }
+    }
+    ask_close(&a);
+  }
+  memset(by_model, 0, sizeof by_model), memset(by_bundle, 0, sizeof by_bundle), memset(by_frame, 0, sizeof by_frame), memset(by_isa, 0, sizeof by_isa);
+  memset(table, 0, sizeof table);
+  assert_int_equal(failures, 0);
+}
+
 int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_bodies();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
