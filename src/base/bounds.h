@@ -51,7 +51,7 @@
 /* The superquadric's f = rho^q + z^q along a line as computed (src/shape/superquadric_line.c), s = e/n where rho^q takes a second power, else 0:
      |f^ - f| <= (QN_SUPER_VALUE(s, q) + QN_SUPER_BEYOND max(f^ - 1, 0)) f^ + QN_SUPER_VALUE_0
    which also holds a rounding of each coordinate, relatively u; in long doubles of 64 bits and more, QN_SUPER_FINER times that. Each
-   addend of df/dt is within QN_SUPER_RATE of itself. A tangent's step is shortened by QN_SUPER_TANGENT of itself.
+   addend of df/dt is within QN_SUPER_RATE of itself and QN_SUPER_FADED max |D_i| (underflow). A tangent's step is shortened by QN_SUPER_TANGENT of itself.
    QN_SUPER_LEAST, QN_SUPER_MOST: the range of exponents for that (0 too for e), s at most QN_SUPER_QUOTIENT; QN_SUPER_SHORT, QN_SUPER_LONG: |O_i| and |D_i| that are not 0
    are at least the one, |D_i| at most the other. */
 #define QN_SUPER_VALUE(s, q) ((6 + 12 * (s) + 3 * (q)) * QN_U)
@@ -59,6 +59,7 @@
 #define QN_SUPER_BEYOND (8 * QN_U)
 #define QN_SUPER_FINER 0x1p-10
 #define QN_SUPER_RATE 0x1p-38
+#define QN_SUPER_FADED 0x1p-300
 #define QN_SUPER_TANGENT (32 * QN_U)
 #define QN_SUPER_LEAST 0x1p-9
 #define QN_SUPER_MOST 0x1p+3

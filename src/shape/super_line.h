@@ -22,6 +22,7 @@ typedef struct qn_super_line {
   double e, n, p, q, s, O[3], D[3];
   double size;           /* the longest stretch of such a line in the box |X_i| <= 1 */
   double error, scale;   /* f's error: QN_SUPER_VALUE(s, q); times scale */
+  double faded;          /* what df/dt may lose to underflow */
   int fine;              /* in long doubles */
   qn_super_inner inner;
   unsigned p2, q2, r2;   /* twice p, q, q/2 where that is an integer up to QN_SUPER_HALVES, else 0: products and a root, no logarithm */

@@ -33,6 +33,7 @@ int qn_super_line_make(double e, double n, const double O[3], const double D[3],
     return 0;
   }
   out->size = 2 / most;
+  out->faded = QN_SUPER_FADED * most;
   out->e = e, out->n = n, out->p = e > 0 ? 2 / e : INFINITY, out->q = 2 / n, out->s = e / n;
   out->inner = e == n   ? QN_SUPER_SAME
                : e == 1 ? QN_SUPER_ROUND
@@ -124,7 +125,7 @@ static qn_super_look look(const qn_super_line *c, double t) {
   }
   gx *= c->q * c->D[0], gy *= c->q * c->D[1], gz *= c->q * c->D[2];
   double f = inner + outer, rise = gx + gy, all = fabs(gx) + fabs(gy);
-  qn_super_look r = {f - 1, rise + gz, error_of(c, f), QN_SUPER_RATE * (all + fabs(gz)), inner, rise, QN_SUPER_RATE * all, outer};
+  qn_super_look r = {f - 1, rise + gz, error_of(c, f), QN_SUPER_RATE * (all + fabs(gz)) + c->faded, inner, rise, QN_SUPER_RATE * all + c->faded, outer};
   return r;
 }
 
@@ -203,9 +204,9 @@ static qn_super_look look_finely(const qn_super_line *c, double t) {
     g[i] *= q * c->D[i];
     slope += g[i], all += fabsl(g[i]);
   }
-  qn_super_look r = {.over = (double)(f - 1), .slope = (double)slope, .slope_error = QN_SUPER_RATE * (double)all};
+  qn_super_look r = {.over = (double)(f - 1), .slope = (double)slope, .slope_error = QN_SUPER_RATE * (double)all + c->faded};
   r.inner = (double)inner, r.rise = (double)(g[0] + g[1]), r.outer = (double)outer;
-  r.rise_error = QN_SUPER_RATE * (double)(fabsl(g[0]) + fabsl(g[1]));
+  r.rise_error = QN_SUPER_RATE * (double)(fabsl(g[0]) + fabsl(g[1])) + c->faded;
   r.error = error_of(c, (double)f) + QN_U * fabs(r.over);
   return r;
 }

@@ -160,8 +160,10 @@ static end end_at(const qn_super_line *c, double t) {
   return r;
 }
 
-/* Widened by the slopes' relative error. */
-static qn_interval loose(double lo, double hi) { return (qn_interval){lo - QN_SUPER_RATE * fabs(lo), hi + QN_SUPER_RATE * fabs(hi)}; }
+/* Widened by the slopes' errors. */
+static qn_interval loose(double lo, double hi) {
+  return (qn_interval){lo - QN_SUPER_RATE * fabs(lo) - QN_SUPER_FADED, hi + QN_SUPER_RATE * fabs(hi) + QN_SUPER_FADED};
+}
 
 /* Bounds of df/dt on the piece between two ends. */
 static qn_interval slopes(const qn_super_line *c, const end *a, const end *b) {
@@ -248,7 +250,7 @@ static int cuts(const qn_super_line *c, double a, double b, double cut[3][2], si
     if (d == 0) {
       continue;
     }
-    double t = -o / d, l = t, h = t;
+    double t = -o / d, l = t - QN_SUPER_SHORT * c->size, h = t + QN_SUPER_SHORT * c->size; /* apart though t is 0: no power lost */
     if (!between(a, t, b)) {
       continue;
     }
