@@ -5,6 +5,7 @@
 #  2. libquoin.so exports quoin_ names only. (LIBRARY "--" leaves this out: sanitizers add names of their own.)
 #  3. Every public header compiles alone as C99 and as C++.
 #  4. No internal header and no internal name is in a public header.
+#  5. Every bound of src/base/bounds.h is derived, by its name, in docs/bounds.md.
 set -u
 source=$1 cc=$2 cxx=$3 library=$4
 failures=$(mktemp)
@@ -67,6 +68,13 @@ typedef int not_empty;"
   grep -nE '(^|[^a-z])(qn_|mpz_|mpq_|mpfr_|__m[0-9])' "$header" | while IFS= read -r line; do complain "$name: an internal name: $line"; done
 done
 [ -n "$cxx" ] || echo "layers: no C++ compiler: headers were not tried as C++"
+
+# --- 5. bounds -------------------------------------------------------------------------------------------------------
+bounds=$(sed -n 's/^#define \(QN_[A-Z0-9_]*\).*/\1/p' "$source/src/base/bounds.h" | grep -v '_H$')
+[ -n "$bounds" ] || complain "no bounds found"
+for name in $bounds; do
+  grep -qw "$name" "$source/docs/bounds.md" || complain "docs/bounds.md does not derive $name"
+done
 
 if [ -s "$failures" ]; then
   exit 1
