@@ -110,7 +110,7 @@ static void goldens(void **state) {
   }
 }
 
-/* docs/language.md has a row for every code, and none for what is not. */
+/* docs/language.md has a row for every code, and none for what is not. (Q1001 and on are the command's.) */
 static void documented(void **state) {
   (void)state;
   text doc = read_file(QN_SOURCE_DIR "/docs/language.md");
@@ -124,7 +124,7 @@ static void documented(void **state) {
     }
   }
   size_t rows = 0;
-  for (const char *at = doc.at; (at = strstr(at, "\n| Q")) != NULL; at++) {
+  for (const char *at = doc.at; (at = strstr(at, "\n| Q0")) != NULL; at++) {
     rows++;
   }
   assert_int_equal(rows, QN_CODE_COUNT);
