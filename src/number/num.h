@@ -81,6 +81,11 @@ QN_NODISCARD int qn_num_quick_pair(qn_num a, double *hi, double *lo);
 QN_NODISCARD int qn_num_quick_span(qn_num a, qn_num b, double *down, double *up);
 QN_NODISCARD int qn_num_quick_square(qn_num a, double *out);
 
+/* The decimal at the start of a text ended by NUL, as qn_num_read takes it: the double nearest to it (ties to even), and whether that is it
+   exactly. Returns the bytes read; 0 for what is no decimal, or has more than 19 digits that count or an unusual exponent, and is left to
+   qn_num_read. No memory. Cost: 10 to 25 ns. */
+size_t qn_decimal_quick(const char *text, double *nearest, int *exact);
+
 /* The value as the shortest text that reads back to it: "0.1", "2.5e-07", "(1/3)", and for a rounded number
    "rounded(M/2^K)" or "rounded(M*2^K)". Into the arena; null on failure. */
 char *qn_num_text(qn_ctx *ctx, qn_num a);

@@ -5,6 +5,7 @@
    Division by an invariant: Moeller, Granlund 2011. */
 #include "number/num_parts.h"
 
+#include <stddef.h>
 #include <string.h>
 
 enum { SIZES = 400 }; /* exponents of two beyond it are left to the slow way: here nothing over- or underflows */
@@ -164,4 +165,68 @@ int qn_num_quick_square(qn_num a, double *out) {
     *out = qn_limbs_to_double_(num, num[1] ? 2 : 1, den, den[1] ? 2 : 1, 2 * a.a);
   }
   return 1;
+}
+
+/* --- decimals --------------------------------------------------------------------------------------------------------- */
+
+QN_INLINE unsigned digit_of(char c) {
+  return (unsigned)(unsigned char)c - '0'; /* above 9 when it is none */
+}
+
+size_t qn_decimal_quick(const char *text, double *nearest_out, int *exact) {
+  const char *at = text + (*text == '-' || *text == '+'), *first, *point;
+  uint64_t m = 0;
+  unsigned d;
+  while (*at == '0') {
+    at++;
+  }
+  int any = at > text && at[-1] == '0';
+  for (first = at; (d = digit_of(*at)) <= 9; at++) {
+    m = m * 10 + d;
+  }
+  ptrdiff_t count = at - first, scale = 0;
+  any |= count > 0;
+  if (*at == '.') {
+    point = ++at;
+    if (count == 0) { /* zeros before the first digit that counts */
+      while (*at == '0') {
+        at++;
+      }
+    }
+    for (first = at; (d = digit_of(*at)) <= 9; at++) {
+      m = m * 10 + d;
+    }
+    any |= at > point;
+    count += at - first;
+    scale = point - at;
+  }
+  if (!any || count > 19) {
+    return 0;
+  }
+  if (*at == 'e' || *at == 'E') {
+    int negative = *++at == '-', e = 0;
+    at += *at == '-' || *at == '+';
+    for (first = at; (d = digit_of(*at)) <= 9 && e < 10000; at++) {
+      e = e * 10 + (int)d;
+    }
+    if (at == first || digit_of(*at) <= 9) {
+      return 0;
+    }
+    scale += negative ? -e : e;
+  }
+  if (m == 0) {
+    *nearest_out = 0;
+    *exact = 1;
+    return (size_t)(at - text);
+  }
+  if (scale < -QN_FIVES_ || scale > QN_FIVES_) {
+    return 0;
+  }
+  quotient r = divide((qn_u128)m * (scale > 0 ? qn_five_to_[scale] : 1), scale < 0 ? (int)-scale : 0, (int)scale);
+  unsigned cut;
+  uint64_t low, top = top_of(&r, &cut, &low);
+  double v = scaled(top + (uint64_t)rounds_up(&r, top, cut, low), r.e + (int)cut);
+  *nearest_out = *text == '-' ? -v : v;
+  *exact = low == 0 && r.rest == 0;
+  return (size_t)(at - text);
 }
