@@ -74,6 +74,10 @@ QUOIN_API quoin_status quoin_point_side(const quoin_scene *scene, quoin_work *wo
 QUOIN_API quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_t n, const double *points, quoin_side *out);
 /* A point as decimals: "0.1" is 1/10. QUOIN_E_NUMBER when a text is not a finite decimal number. */
 QUOIN_API quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_side *out);
+/* n points as decimals, xyz after xyz. *done (may be null): how many were answered, all n with QUOIN_OK, else those before the point that the
+   status is about. */
+QUOIN_API quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *points, quoin_side *out,
+                                              size_t *done);
 /* The parts whose closed solids hold the point of the last quoin_point_side*, in the order of the file: up to `size` of
    them into parts; *count is how many there are. */
 QUOIN_API quoin_status quoin_point_parts(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_part *parts, size_t size, size_t *count);

@@ -100,31 +100,80 @@ static void spill(block *b, size_t i, slot *s) {
   s->text.length = 0;
 }
 
-/* Answers chunk i into its slot. */
-static void answer(block *b, unsigned thread, size_t i, slot *s) {
+/* Rows of a chunk that wait to be answered together. */
+typedef struct rows {
+  size_t count;
+  cli_row row[CLI_ROWS];
+  uint64_t line[CLI_ROWS];
+  const char *numbers[CLI_ROWS * CLI_MAX_NUMBERS];
+} rows;
+
+static quoin_status answer_rows(block *b, unsigned thread, quoin_work *work, const rows *r, cli_text *text, size_t first, size_t *done) {
   cli_batch *batch = b->batch;
-  quoin_work *work = cli_batch_work(batch, thread);
-  s->fault.status = work ? QUOIN_OK : QUOIN_E_MEMORY;
-  uint64_t number = b->chunks[i].line;
-  for (char *line = b->chunks[i].begin, *end; line < b->chunks[i].end && s->fault.status == QUOIN_OK; line = end + 1, number++) {
-    end = memchr(line, '\n', (size_t)(b->chunks[i].end - line));
-    end = end ? end : b->chunks[i].end; /* the last line of a file may lack its end; the byte after it is ours */
-    cli_row row;
-    cli_row_cut(&row, line, end);
-    if (row.count == 0 || cli_row_fault(&row, &batch->kind, number, &s->fault)) {
-      continue;
-    }
-    size_t before = s->text.length;
-    quoin_status status = batch->answer(batch->user, thread, work, row.numbers, &s->text);
-    if (status == QUOIN_OK && s->text.failed) {
-      status = QUOIN_E_MEMORY;
-    }
+  const char *const *numbers = r->numbers + first * batch->kind.numbers;
+  size_t before = text->length;
+  quoin_status status;
+  if (batch->answer_many) {
+    status = batch->answer_many(batch->user, thread, work, r->count - first, numbers, text, done);
+  } else {
+    status = batch->answer(batch->user, thread, work, numbers, text);
+    *done = status == QUOIN_OK;
+    text->length = status == QUOIN_OK ? text->length : before;
+  }
+  if (text->failed) {
+    *done = 0;
+    text->length = before;
+    return QUOIN_E_MEMORY;
+  }
+  return status;
+}
+
+/* Answers the rows that wait; a fault of one of them is set. */
+static void answer_waiting(block *b, unsigned thread, size_t i, quoin_work *work, rows *r, slot *s) {
+  for (size_t at = 0; at < r->count && s->fault.status == QUOIN_OK;) {
+    size_t done = 0;
+    quoin_status status = answer_rows(b, thread, work, r, &s->text, at, &done);
+    at += done;
     if (status != QUOIN_OK) {
-      s->text.length = before;
-      cli_row_refused(&row, batch->scene, work, status, number, &s->fault);
+      cli_row_refused(&r->row[at], b->batch->scene, work, status, r->line[at], &s->fault);
     } else if (s->text.length >= SPILL) {
       spill(b, i, s);
     }
+  }
+  r->count = 0;
+}
+
+/* Answers chunk i into its slot. */
+static void answer(block *b, unsigned thread, size_t i, slot *s) {
+  const cli_row_kind *kind = &b->batch->kind;
+  quoin_work *work = cli_batch_work(b->batch, thread);
+  s->fault.status = work ? QUOIN_OK : QUOIN_E_MEMORY;
+  uint64_t number = b->chunks[i].line;
+  size_t most = b->batch->answer_many ? CLI_ROWS : 1;
+  rows r;
+  r.count = 0;
+  for (char *line = b->chunks[i].begin, *end; line < b->chunks[i].end && s->fault.status == QUOIN_OK; line = end + 1, number++) {
+    end = memchr(line, '\n', (size_t)(b->chunks[i].end - line));
+    end = end ? end : b->chunks[i].end; /* the last line of a file may lack its end; the byte after it is ours */
+    cli_row *row = &r.row[r.count];
+    cli_row_cut(row, line, end);
+    if (row->count == 0) {
+      continue;
+    }
+    cli_fault fault;
+    if (cli_row_fault(row, kind, number, &fault)) { /* the rows before it come first */
+      answer_waiting(b, thread, i, work, &r, s);
+      s->fault = s->fault.status == QUOIN_OK ? fault : s->fault;
+      return;
+    }
+    memcpy(r.numbers + r.count * kind->numbers, row->numbers, kind->numbers * sizeof *r.numbers);
+    r.line[r.count++] = number;
+    if (r.count == most) {
+      answer_waiting(b, thread, i, work, &r, s);
+    }
+  }
+  if (s->fault.status == QUOIN_OK) {
+    answer_waiting(b, thread, i, work, &r, s);
   }
 }
 

@@ -7,6 +7,8 @@
 #include "cli/out.h"
 #include "cli/rows.h"
 
+enum { CLI_ROWS = 256 }; /* rows of lines that are answered at once, at most */
+
 typedef struct cli_batch {
   const cli_common *common;
   const quoin_scene *scene;
@@ -14,6 +16,9 @@ typedef struct cli_batch {
   /* Answers one row of kind.numbers numbers and puts a line into text. Called by several threads at once; `thread` is below
      cli_batch_threads(). QUOIN_E_NUMBER and QUOIN_E_ARGUMENT mean that the row is wrong. */
   quoin_status (*answer)(void *user, unsigned thread, quoin_work *work, const char *const *numbers, cli_text *text);
+  /* The same for n rows at once, their numbers one row after another; may be null. *done is set to the rows answered, whose lines are in text:
+     all of them, or fewer (at least one) where it likes to be called again for the others, or those before the row that the status is about. */
+  quoin_status (*answer_many)(void *user, unsigned thread, quoin_work *work, size_t n, const char *const *numbers, cli_text *text, size_t *done);
   void *user;
   quoin_work **works; /* made as they are needed */
   unsigned threads;

@@ -43,6 +43,14 @@ static const char *side_word(quoin_side side) {
   return "";
 }
 
+static const char *text_line(quoin_side side) {
+  return side == QUOIN_INSIDE ? "inside\n" : side == QUOIN_BOUNDARY ? "boundary\n" : "outside\n";
+}
+
+static const char *json_line(quoin_side side) {
+  return side == QUOIN_INSIDE ? "{\"side\":\"inside\"}\n" : side == QUOIN_BOUNDARY ? "{\"side\":\"boundary\"}\n" : "{\"side\":\"outside\"}\n";
+}
+
 static void put_part(const query *q, const quoin_scene *scene, quoin_part part, int first, cli_text *text) {
   const char *name = quoin_part_name(scene, part);
   if (q->json) {
@@ -101,6 +109,25 @@ static quoin_status answer(void *user, unsigned thread, quoin_work *work, const 
   return status;
 }
 
+/* Without names: the rows of a block together. */
+static quoin_status answer_many(void *user, unsigned thread, quoin_work *work, size_t n, const char *const *numbers, cli_text *text, size_t *done) {
+  (void)thread;
+  context *c = user;
+  quoin_side sides[CLI_ROWS];
+  n = n < CLI_ROWS ? n : CLI_ROWS;
+  quoin_status status = quoin_point_sides_text(c->batch.scene, work, n, numbers, sides, done);
+  int not_inside = 0;
+  for (size_t i = 0; i < *done; i++) {
+    const char *line = c->q.json ? json_line(sides[i]) : text_line(sides[i]);
+    cli_puts(text, line);
+    not_inside |= sides[i] != QUOIN_INSIDE;
+  }
+  if (not_inside) {
+    atomic_store_explicit(&c->q.not_inside, 1, memory_order_relaxed);
+  }
+  return status;
+}
+
 static int run(const cli_command *self, int argc, char **argv) {
   context c = {.batch = {.kind = {"point", "x y z", 3}, .answer = answer, .user = &c}};
   cli_common common;
@@ -108,6 +135,7 @@ static int run(const cli_command *self, int argc, char **argv) {
   if (code >= 0) {
     return code;
   }
+  c.batch.answer_many = c.q.names ? NULL : answer_many;
   code = cli_batch_run(&c.batch, self, &common, c.q.input, NULL);
   return code == CLI_OK && c.q.exit_code && atomic_load(&c.q.not_inside) ? CLI_NO : code;
 }

@@ -52,39 +52,32 @@ quoin_status qn_query_point_doubles(quoin_work *work, const double x[3], qn_quer
 
 quoin_status qn_query_point_text(quoin_work *work, const char *const text[3], qn_query_point *out) {
   memset(out, 0, sizeof *out);
-  qn_ctx *ctx = qn_scratch_ctx(work->scratch);
-  qn_rat r[3];
-  qn_int w = qn_int_from(ctx, 1);
   for (int i = 0; i < 3; i++) {
-    quoin_status status = qn_query_number(work, text[i], &out->exact[i]);
-    if (status != QUOIN_OK) {
-      return status;
+    if (!text[i]) {
+      return QUOIN_E_ARGUMENT;
     }
-    out->x[i] = qn_num_to_double(out->exact[i]);
-    if (!isfinite(out->x[i]) || !qn_num_equal(qn_num_from_double(ctx, out->x[i]), out->exact[i])) {
+    int exact = 0;
+    size_t read = qn_decimal_quick(text[i], &out->x[i], &exact);
+    if (read == 0 || text[i][read] != '\0') {
+      qn_num n;
+      quoin_status status = qn_query_number(work, text[i], &n);
+      if (status != QUOIN_OK) {
+        return status;
+      }
+      out->x[i] = qn_num_to_double(n);
+      exact = isfinite(out->x[i]) && qn_num_equal(qn_num_from_double(qn_scratch_ctx(work->scratch), out->x[i]), n);
+    }
+    if (!exact) {
       /* Rounded to nearest: within u |x|, or below the least normal number within 2^-1074. */
       out->weight[i] = fmax(fabs(out->x[i]), DBL_MIN);
-    }
-    r[i] = qn_num_rat(ctx, out->exact[i]);
-    qn_int g = qn_int_gcd(ctx, w, r[i].den);
-    if (qn_int_sign(g) > 0) { /* else memory was refused */
-      w = qn_int_mul(ctx, w, qn_int_divexact(ctx, r[i].den, g));
+      out->text[i] = text[i];
     }
   }
-  for (int i = 0; i < 3 && ctx->failed == QUOIN_OK; i++) {
-    out->point.x[i] = qn_int_mul(ctx, r[i].num, qn_int_divexact(ctx, w, r[i].den));
-  }
-  out->point.w = w;
-  out->made = 1;
-  return ctx->failed;
+  return qn_scratch_ctx(work->scratch)->failed;
 }
 
 /* The doubles' exact coordinates, over one power of two. */
-static void make_exact(quoin_work *work, qn_query_point *p) {
-  if (p->made) {
-    return;
-  }
-  qn_ctx *ctx = qn_scratch_ctx(work->scratch);
+static void make_doubles(qn_ctx *ctx, qn_query_point *p) {
   int least = 0, e[3];
   double m[3];
   for (int i = 0; i < 3; i++) {
@@ -97,7 +90,40 @@ static void make_exact(quoin_work *work, qn_query_point *p) {
     p->point.x[i] = m[i] == 0 ? (qn_int){0, NULL} : qn_int_shl(ctx, qn_int_from(ctx, (int64_t)ldexp(m[i], 53)), (size_t)(e[i] - least));
   }
   p->point.w = qn_int_shl(ctx, qn_int_from(ctx, 1), (size_t)-least);
-  p->made = 1;
+}
+
+/* The decimals', over their common denominator. */
+static void make_decimals(quoin_work *work, qn_query_point *p) {
+  qn_ctx *ctx = qn_scratch_ctx(work->scratch);
+  qn_rat r[3];
+  qn_int w = qn_int_from(ctx, 1);
+  for (int i = 0; i < 3; i++) {
+    if (!p->text[i]) {
+      p->exact[i] = qn_num_from_double(ctx, p->x[i]);
+    } else if (qn_query_number(work, p->text[i], &p->exact[i]) != QUOIN_OK) {
+      return; /* memory: it was read before */
+    }
+    r[i] = qn_num_rat(ctx, p->exact[i]);
+    qn_int g = qn_int_gcd(ctx, w, r[i].den);
+    if (qn_int_sign(g) > 0) { /* else memory was refused */
+      w = qn_int_mul(ctx, w, qn_int_divexact(ctx, r[i].den, g));
+    }
+  }
+  for (int i = 0; i < 3 && ctx->failed == QUOIN_OK; i++) {
+    p->point.x[i] = qn_int_mul(ctx, r[i].num, qn_int_divexact(ctx, w, r[i].den));
+  }
+  p->point.w = w;
+}
+
+static void make_exact(quoin_work *work, qn_query_point *p) {
+  if (!p->made) {
+    if (p->text[0] || p->text[1] || p->text[2]) {
+      make_decimals(work, p);
+    } else {
+      make_doubles(qn_scratch_ctx(work->scratch), p);
+    }
+    p->made = 1;
+  }
 }
 
 /* --- exact signs --------------------------------------------------------------------------------------------------- */

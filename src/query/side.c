@@ -34,14 +34,32 @@ quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_
   return QUOIN_OK;
 }
 
-quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_side *out) {
-  if (!scene || !work || work->scene != scene || !point || !out) {
+quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *points, quoin_side *out, size_t *done) {
+  if (done) {
+    *done = 0;
+  }
+  if (!scene || !work || work->scene != scene || (n != 0 && (!points || !out))) {
     return QUOIN_E_ARGUMENT;
   }
-  qn_query_point p;
-  qn_query_begin(work);
-  quoin_status status = qn_query_point_text(work, point, &p);
-  return status == QUOIN_OK ? side_of(work, &p, out) : status;
+  for (size_t i = 0; i < n; i++) {
+    qn_query_point p;
+    qn_query_begin(work);
+    quoin_status status = qn_query_point_text(work, points + 3 * i, &p);
+    if (status == QUOIN_OK) {
+      status = side_of(work, &p, &out[i]);
+    }
+    if (done) {
+      *done = i + (status == QUOIN_OK);
+    }
+    if (status != QUOIN_OK) {
+      return status;
+    }
+  }
+  return QUOIN_OK;
+}
+
+quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_side *out) {
+  return quoin_point_sides_text(scene, work, 1, point, out, NULL);
 }
 
 static int by_leaf(const void *a, const void *b) {

@@ -45,9 +45,10 @@ struct quoin_work {
    |true x_i - x[i]| <= u weight[i]; weight 0: x[i] is exact. */
 typedef struct qn_query_point {
   double x[3], weight[3];
+  const char *text[3]; /* null: x[i] is exact; else the decimal, which must hold as long as the point */
   qn_num exact[3];
   qn_point point;
-  int made; /* point is there */
+  int made; /* exact and point are there */
 } qn_query_point;
 
 /* Starts a question: the context is cleared, so it comes before the point is made. */
