@@ -1,5 +1,6 @@
 /* All stretches of a ray, as the public answer: places become correctly rounded parameters, ends get their part and surface. */
-#include "query/work.h"
+#include "query/look.h"
+#include "query/sheaf.h"
 
 #include <math.h>
 
@@ -67,19 +68,58 @@ quoin_status quoin_ray_intervals(const quoin_scene *scene, quoin_work *work, con
   return answer(work, &line, &range, want, out);
 }
 
+/* Rays [0, n) as one packet, the ones it gives up woven; `first` is the number of rays[0] for who asked. */
+static quoin_status together(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, size_t first, unsigned want,
+                             int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
+  uint64_t sure;
+  quoin_status status = qn_sheaf_rays(work, n, rays, &sure);
+  for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
+    const qn_sheaf *sheaf = work->sheaf;
+    quoin_intervals one = {sheaf->first[i + 1] - sheaf->first[i], sheaf->found + sheaf->first[i], 0, work->boundary, 0, work->contacts};
+    if (!(sure >> i & 1)) {
+      status = quoin_ray_intervals(scene, work, &rays[i], want, &one);
+    }
+    if (status == QUOIN_OK && each(user, first + i, &one) != 0) {
+      status = QUOIN_E_CANCELLED;
+    }
+  }
+  return status;
+}
+
+/* How many of the next n rays are to go as one packet: 1, a few, or a whole one. */
+static size_t share(size_t n, const quoin_ray *rays) {
+  n = n < QN_LANES ? n : QN_LANES;
+  if (n > 2 * QN_FEW && qn_rays_together(rays, n)) {
+    return n;
+  }
+  n = n < QN_FEW ? n : QN_FEW;
+  return n > 1 && qn_rays_together(rays, n) ? n : 1;
+}
+
 quoin_status quoin_ray_intervals_many(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want,
                                       int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
-  if (!each || (n != 0 && !rays)) {
+  if (!scene || !work || work->scene != scene || !each || (n != 0 && !rays) || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS)) {
     return QUOIN_E_ARGUMENT;
   }
-  for (size_t i = 0; i < n; i++) {
-    quoin_intervals one;
-    quoin_status status = quoin_ray_intervals(scene, work, &rays[i], want, &one);
+  for (size_t at = 0, count; at < n; at += count) {
+    size_t good = 0; /* the answers before a wrong ray are given */
+    while (good < QN_LANES && at + good < n && is_ray(&rays[at + good])) {
+      good++;
+    }
+    if (good == 0) {
+      return QUOIN_E_ARGUMENT;
+    }
+    quoin_status status;
+    count = want & QUOIN_WANT_CONTACTS ? 1 : share(good, rays + at);
+    if (count > 1) {
+      status = together(scene, work, count, rays + at, at, want, each, user);
+    } else {
+      quoin_intervals one;
+      status = quoin_ray_intervals(scene, work, &rays[at], want, &one);
+      status = status == QUOIN_OK && each(user, at, &one) != 0 ? QUOIN_E_CANCELLED : status;
+    }
     if (status != QUOIN_OK) {
       return status;
-    }
-    if (each(user, i, &one) != 0) {
-      return QUOIN_E_CANCELLED;
     }
   }
   return QUOIN_OK;

@@ -28,6 +28,11 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
 /* The same for lanes that are in a packet already. *met: the lanes that meet a boundary; the others' entries are not set. */
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met);
 
+/* Whether a packet of these rays pays. */
+int qn_rays_together(const quoin_ray *rays, size_t n);
+/* Puts n rays into the first lanes of a packet of `lanes` lanes. */
+void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays);
+
 /* The unit normal, out of the solid, at t on the ray, from the surface's own double form; zero at a singular point. */
 void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]);
 

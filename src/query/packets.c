@@ -125,6 +125,13 @@ static void fill(qn_packet *p, size_t lanes, size_t n, const quoin_ray *rays, co
   p->tile = QN_TILE_NONE;
 }
 
+int qn_rays_together(const quoin_ray *rays, size_t n) {
+  return go_together(rays, n);
+}
+void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays) {
+  fill(packet, lanes, n, rays, NULL);
+}
+
 static quoin_status look_together(quoin_work *work, qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
   qn_seen seen[QN_LANES];
   uint64_t met;

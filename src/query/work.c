@@ -1,5 +1,5 @@
 /* Scratch: its making, its end, its counts. */
-#include "query/work.h"
+#include "query/sheaf.h"
 
 quoin_status quoin_work_new(const quoin_scene *scene, quoin_work **out) {
   if (!scene || !out) {
@@ -39,6 +39,7 @@ void quoin_work_free(quoin_work *work) {
   qn_free(mem, work->boundary, work->boundary_capacity * sizeof *work->boundary);
   qn_free(mem, work->contacts, work->contact_capacity * sizeof *work->contacts);
   qn_query_locals_free(work);
+  qn_sheaf_free(work);
   qn_free(mem, work, sizeof *work);
 }
 

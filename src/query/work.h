@@ -19,6 +19,8 @@ typedef struct qn_local {
 } qn_local;
 #define QN_NO_LOCAL UINT32_MAX
 
+typedef struct qn_sheaf qn_sheaf; /* sheaf.h */
+
 struct quoin_work {
   const quoin_scene *scene;
   qn_mem *mem;
@@ -37,6 +39,8 @@ struct quoin_work {
   quoin_interval *inside;    size_t inside_capacity;
   quoin_interval *boundary;  size_t boundary_capacity;
   quoin_end *contacts;       size_t contact_capacity;
+
+  qn_sheaf *sheaf; /* of rays in packets; made when first needed */
 
   qn_local *locals; /* QN_LOCALS of them, by leaf modulo; made when first needed */
 };

@@ -223,6 +223,12 @@ quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem, const uint8_t *kin
       lines += lines_of((qn_piece_kind)kinds[leaf]);
     }
   }
+  for (size_t i = 0; i < scene->leaf_count; i++) { /* leaves that the normal form has no use for, but the program names (query/spans.c) */
+    if (scene->line_of[i] == NOT_MET && scene->leaves[i].gate != QN_NO_GATE) {
+      scene->line_of[i] = (uint32_t)lines;
+      lines += lines_of((qn_piece_kind)kinds[i]);
+    }
+  }
   if (lines >= NOT_MET) {
     return QUOIN_E_LIMIT;
   }

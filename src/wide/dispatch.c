@@ -6,6 +6,8 @@
 #define BODIES_OF(isa)                                                                              \
   void qn_first_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *); \
   void qn_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);   \
+  void qn_spans_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *);     \
+  void qn_spans_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *); \
   uint64_t qn_round_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, uint64_t, double *, uint64_t *);
 BODIES_OF(sse2)
 BODIES_OF(avx2)
@@ -13,9 +15,9 @@ BODIES_OF(avx512)
 
 /* From the widest to the one that always runs. */
 static const qn_wide bodies[] = {
-  {"avx512", qn_first_avx512, qn_few_avx512, qn_round_avx512},
-  {"avx2", qn_first_avx2, qn_few_avx2, qn_round_avx2},
-  {"sse2", qn_first_sse2, qn_few_sse2, qn_round_sse2},
+  {"avx512", qn_first_avx512, qn_few_avx512, qn_round_avx512, qn_spans_avx512, qn_spans_few_avx512, 8},
+  {"avx2", qn_first_avx2, qn_few_avx2, qn_round_avx2, qn_spans_avx2, qn_spans_few_avx2, 4},
+  {"sse2", qn_first_sse2, qn_few_sse2, qn_round_sse2, qn_spans_sse2, qn_spans_few_sse2, 2},
 };
 
 static int runs(size_t i) {

@@ -54,11 +54,35 @@ typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, 
 typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
                                 uint64_t *made);
 
+/* Every stretch of each lane in each leaf that it meets: for whoever merges them (query/spans.h). Lanes lie in groups of `width`; slot s of
+   group g holds one leaf's stretches, four times `width` doubles from ends + ((g capacity + s) 4 width): where they begin, where they
+   end, and the payloads of both (below). An end that is not there lies at -QN_SPAN_FAR or QN_SPAN_FAR. */
+typedef struct qn_packet_spans {
+  double *ends;          /* aligned to 64 */
+  uint8_t *hit;          /* of slot s of group g, at g capacity + s: the lanes that meet the leaf */
+  uint32_t capacity;     /* slots for each group */
+  uint32_t count[QN_LANES / 2]; /* slots in use, by group */
+  int full;              /* there were not enough slots: the answer is void */
+  int limited;           /* some leaf was solved in the solid's box only: what is found out of that box means nothing */
+  uint64_t unsure;       /* lanes given up */
+  double reach;          /* nothing that is found at a larger |t| means anything */
+  _Alignas(64) double tolerance[QN_LANES]; /* two places further apart than this are in the order of their doubles; half of it bounds each error */
+} qn_packet_spans;
+#define QN_SPAN_FAR 0x1p+500
+/* A payload: the surface (low half), the leaf, and whether it is the larger of the surface's two roots on that ray. */
+#define QN_SPAN_LARGER ((uint64_t)1 << 62)
+#define QN_SPAN_LEAF 0x3fffffffu /* of the upper half */
+
+/* Fills spans; live lanes must have from < to or are not solved. */
+typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
+
 typedef struct qn_wide {
   const char *name;
   qn_first_fn first; /* all QN_LANES lanes: every lane's numbers must be there, live or not */
   qn_first_fn few;   /* the first QN_FEW lanes alone, as quick as those need; no tiles */
   qn_round_fn round;
+  qn_spans_fn spans, spans_few; /* of all lanes; of the first QN_FEW */
+  unsigned width;               /* lanes of a group in qn_packet_spans */
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

@@ -16,7 +16,7 @@
 #include <string.h>
 
 enum { QN_GROUPS = QN_LANES_NOW / QN_W };
-#define QN_FAR 0x1p+500 /* an end that is not there */
+#define QN_FAR QN_SPAN_FAR /* an end that is not there */
 #define QN_NOBODY 0xffffffffu
 
 /* A payload is the surface (low half), the leaf, and in a bit near the top whether it is the larger of the surface's two roots; it

@@ -1,0 +1,391 @@
+/* A packet's stretches merged, lane by lane.
+
+   What the weave does (ray/weave.c), with ends from wide code: sorted by their doubles, which is their true order where neighbours are
+   apart by more than the lane's tolerance. Nearer neighbours are at one place when they are the same root of the same surface; otherwise the
+   lane is given up. Ends at one place are one event: changes are made in the order of the leaves, the last to change the solid's value is named.
+   A stretch that runs in a surface is never certified by wide code, so a lane that is answered has none (S7). */
+#include "query/sheaf.h"
+
+#include "base/bounds.h"
+#include "query/look.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef qn_sheaf_event event;
+enum { FEW_SLOTS = 24, SLOTS_AT_FIRST = 30, MOST_SLOTS = 1 << 12 };
+#define SAME_PLACE (QN_SPAN_LARGER | 0xffffffffu)
+
+/* --- room ------------------------------------------------------------------------------------------------------------ */
+
+static size_t ends_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES * 4 * sizeof *s->ends; }
+static size_t hits_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES / 2; }
+
+static int room_for_slots(quoin_work *work, uint32_t capacity) {
+  qn_packet_spans *s = &work->sheaf->spans;
+  qn_free_line(work->mem, s->ends, ends_size(s));
+  qn_free(work->mem, s->hit, hits_size(s));
+  s->capacity = capacity;
+  s->ends = qn_alloc_line(work->mem, ends_size(s));
+  s->hit = qn_alloc(work->mem, hits_size(s));
+  if (!s->ends || !s->hit) {
+    qn_free_line(work->mem, s->ends, ends_size(s));
+    qn_free(work->mem, s->hit, hits_size(s));
+    s->ends = NULL, s->hit = NULL, s->capacity = 0;
+    return 0;
+  }
+  return 1;
+}
+
+static int make(quoin_work *work) {
+  if (work->sheaf) {
+    return work->sheaf->spans.capacity > 0 || room_for_slots(work, SLOTS_AT_FIRST);
+  }
+  const qn_program *program = &work->scene->program;
+  work->sheaf = qn_alloc_line(work->mem, sizeof *work->sheaf);
+  if (!work->sheaf) {
+    return 0;
+  }
+  memset(work->sheaf, 0, sizeof *work->sheaf);
+  work->sheaf->count = qn_alloc(work->mem, program->gate_count * sizeof *work->sheaf->count);
+  if (!work->sheaf->count || !room_for_slots(work, SLOTS_AT_FIRST)) {
+    qn_sheaf_free(work);
+    return 0;
+  }
+  for (size_t i = 0; i < program->gate_count; i++) {
+    work->sheaf->count[i] = program->gates[i].base;
+  }
+  return 1;
+}
+
+void qn_sheaf_free(quoin_work *work) {
+  qn_sheaf *s = work->sheaf;
+  if (!s) {
+    return;
+  }
+  qn_free_line(work->mem, s->spans.ends, ends_size(&s->spans));
+  qn_free(work->mem, s->spans.hit, hits_size(&s->spans));
+  qn_free(work->mem, s->count, work->scene->program.gate_count * sizeof *s->count);
+  qn_free(work->mem, s->events, s->event_capacity * sizeof *s->events);
+  qn_free(work->mem, s->sorting, s->sorting_capacity * sizeof *s->sorting);
+  qn_free(work->mem, s->found, s->found_capacity * sizeof *s->found);
+  qn_free(work->mem, s->names, s->name_capacity * sizeof *s->names);
+  qn_free_line(work->mem, s, sizeof *s);
+  work->sheaf = NULL;
+}
+
+/* --- a lane's ends in order -------------------------------------------------------------------------------------------- */
+
+QN_INLINE size_t insert(event *e, size_t n, double t, uint64_t name) {
+  size_t j = n;
+  for (; j > 0 && e[j - 1].t > t; j--) {
+    e[j] = e[j - 1];
+  }
+  e[j] = (event){t, name};
+  return n + 1;
+}
+
+static void merge_runs(event *e, event *spare, size_t n, size_t width) {
+  for (; width < n; width *= 2) {
+    for (size_t begin = 0; begin + width < n; begin += 2 * width) {
+      size_t middle = begin + width, end = middle + width < n ? middle + width : n, left = middle - begin;
+      memcpy(spare, e + begin, left * sizeof *e);
+      size_t i = 0, j = middle, k = begin;
+      while (i < left && j < end) {
+        e[k++] = e[j].t < spare[i].t ? e[j++] : spare[i++];
+      }
+      memcpy(e + k, spare + i, (left - i) * sizeof *e);
+    }
+  }
+}
+
+/* The lane's ends into s->events, sorted; how many. */
+static size_t gather(qn_sheaf *s, unsigned width, unsigned lane) {
+  const unsigned g = lane / width, i = lane % width;
+  const uint32_t slots = s->spans.count[g];
+  const uint8_t *hit = s->spans.hit + (size_t)g * s->spans.capacity;
+  const double *ends = s->spans.ends + (size_t)g * s->spans.capacity * 4 * width + i;
+  event *e = s->events;
+  size_t n = 0, run = 0;
+  for (uint32_t k = 0; k < slots; k++, ends += 4 * (size_t)width) {
+    if (!(hit[k] >> i & 1)) {
+      continue;
+    }
+    uint64_t enter, leave;
+    memcpy(&enter, ends + 2 * width, 8), memcpy(&leave, ends + 3 * width, 8);
+    n = run + insert(e + run, n - run, ends[0], enter | QN_SHEAF_ENTERS);
+    n = run + insert(e + run, n - run, ends[width], leave);
+    run = n - run >= 2 * FEW_SLOTS ? n : run;
+  }
+  if (run) {
+    merge_runs(e, s->sorting, n, 2 * FEW_SLOTS);
+  }
+  return n;
+}
+
+/* --- the weave of a lane ------------------------------------------------------------------------------------------------ */
+
+/* A leaf is entered or left: whether the solid's value changes. */
+QN_INLINE int change(const quoin_scene *scene, uint32_t *count, uint64_t name) {
+  const qn_leaf *leaf = &scene->leaves[name >> 32 & QN_SPAN_LEAF];
+  const qn_gate *gates = scene->program.gates;
+  const int up = (name >> 63 != 0) != leaf->negated;
+  for (uint32_t g = leaf->gate;; g = gates[g].parent) {
+    uint32_t before = count[g], after = up ? before + 1 : before - 1;
+    count[g] = after;
+    if ((before >= gates[g].need) == (after >= gates[g].need)) {
+      return 0;
+    }
+    if (gates[g].parent == QN_NO_GATE) {
+      return 1;
+    }
+  }
+}
+
+/* The ends e[0] to e[n - 1] lie at one place: put into the order of the leaves, and made. Returns whether the value is another afterwards; *last is then
+   the end that is named. */
+static int change_group(const quoin_scene *scene, uint32_t *count, event *e, size_t n, uint64_t *last) {
+  int flips = 0;
+  for (size_t i = 1; i < n; i++) {
+    event x = e[i];
+    size_t j = i;
+    for (; j > 0 && (e[j - 1].name >> 32 & QN_SPAN_LEAF) > (x.name >> 32 & QN_SPAN_LEAF); j--) {
+      e[j] = e[j - 1];
+    }
+    e[j] = x;
+  }
+  for (size_t i = 0; i < n; i++) {
+    if (change(scene, count, e[i].name)) {
+      flips++;
+      *last = e[i].name;
+    }
+  }
+  return flips & 1;
+}
+
+static quoin_end end_of(const quoin_scene *scene, double t, uint64_t name) {
+  if (name == QN_SHEAF_CUT) {
+    return (quoin_end){t == 0 ? 0 : t, QUOIN_NO_PART, QUOIN_BODY};
+  }
+  const uint32_t part = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
+  const qn_leaf *leaf = &scene->leaves[part];
+  const qn_half *half = &scene->halves[leaf->half0];
+  for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
+    half++;
+  }
+  return (quoin_end){t, part, half->role};
+}
+
+/* Whether a place is where the packet's findings mean something. */
+static int in_box(const qn_sheaf *s, const quoin_scene *scene, unsigned lane, double t) {
+  for (int i = 0; i < 3; i++) {
+    double step = t * s->packet.d[i][lane], x = s->packet.o[i][lane] + step;
+    double slack = (fabs(step) + fabs(x)) * QN_WIDE_SPOT + s->spans.tolerance[lane] * fabs(s->packet.d[i][lane]);
+    if (!(x >= scene->min[i] - slack && x <= scene->max[i] + slack)) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+typedef struct lane_walk {
+  const quoin_scene *scene;
+  qn_sheaf *sheaf;
+  double from, to, tolerance;
+  unsigned lane;
+  int sure;
+  double open_t; uint64_t open;
+} lane_walk;
+
+/* The value changes back: a stretch from what is open to t, cut to the range. There is room for it. */
+QN_INLINE void add(lane_walk *w, double t, uint64_t name) {
+  qn_sheaf *s = w->sheaf;
+  double a = w->open_t, b = t;
+  uint64_t pa = w->open, pb = name;
+  w->sure &= (fabs(a - w->from) > w->tolerance || pa == QN_SHEAF_CUT) & (fabs(b - w->to) > w->tolerance || pb == QN_SHEAF_CUT) &
+             (fabs(b - w->from) > w->tolerance) & (fabs(a - w->to) > w->tolerance);
+  if (b <= w->from || a >= w->to) {
+    return;
+  }
+  if (a < w->from) {
+    a = w->from, pa = QN_SHEAF_CUT;
+  }
+  if (b > w->to) {
+    b = w->to, pb = QN_SHEAF_CUT;
+  }
+  w->sure &= fabs(a) <= s->spans.reach && fabs(b) <= s->spans.reach;
+  if (s->spans.limited) {
+    w->sure &= in_box(s, w->scene, w->lane, a) && in_box(s, w->scene, w->lane, b);
+  }
+  s->names[2 * s->found_count] = pa, s->names[2 * s->found_count + 1] = pb;
+  s->found[s->found_count++] = (quoin_interval){end_of(w->scene, a, pa), end_of(w->scene, b, pb)};
+}
+
+/* Whether the sorted ends' order is certain; ends at one place come in a row. */
+QN_INLINE int in_order(const event *e, size_t n, double tolerance) {
+  for (size_t i = 1; i < n; i++) {
+    if (QN_UNLIKELY(!(e[i].t - e[i - 1].t > tolerance)) && ((e[i].name ^ e[i - 1].name) & SAME_PLACE) && !(e[i].t == e[i - 1].t && fabs(e[i].t) == QN_SPAN_FAR)) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+/* 0: the lane is not for doubles. Its stretches are added to the sheaf. */
+static int weave(quoin_work *work, unsigned lane) {
+  qn_sheaf *s = work->sheaf;
+  const quoin_scene *scene = work->scene;
+  const size_t n = gather(s, work->wide->width, lane);
+  event *e = s->events;
+  lane_walk w = {scene, s, s->packet.from[lane], s->packet.to[lane], s->spans.tolerance[lane], lane, 1, -HUGE_VAL, QN_SHEAF_CUT};
+  if (!in_order(e, n, w.tolerance)) {
+    return 0;
+  }
+  int value = scene->program.base;
+  size_t i = 0;
+  for (; i < n && e[i].t == -QN_SPAN_FAR; i++) {
+    value ^= change(scene, s->count, e[i].name);
+  }
+  for (size_t end; i < n && e[i].t != QN_SPAN_FAR; i = end) {
+    uint64_t name = e[i].name;
+    double t = e[i].t;
+    end = i + 1;
+    int other;
+    if (QN_UNLIKELY(end < n && !(e[end].t - t > w.tolerance))) {
+      while (end < n && !(e[end].t - e[end - 1].t > w.tolerance)) {
+        end++;
+      }
+      other = change_group(scene, s->count, e + i, end - i, &name);
+    } else {
+      other = change(scene, s->count, name);
+    }
+    if (other) {
+      if (value) {
+        add(&w, t, name);
+      } else {
+        w.open_t = t, w.open = name;
+      }
+      value = !value;
+    }
+  }
+  if (value) {
+    add(&w, HUGE_VAL, QN_SHEAF_CUT);
+  }
+  for (; i < n; i++) { /* back to rest */
+    change(scene, s->count, e[i].name);
+  }
+  return w.sure;
+}
+
+/* --- parameters, correctly rounded ---------------------------------------------------------------------------------------- */
+
+static quoin_status round_alone(quoin_work *work, const quoin_ray *ray, double e, uint64_t name, double *t) {
+  qn_query_begin(work);
+  qn_line line;
+  qn_line_from_doubles(ray->o, ray->d, &line);
+  const qn_place place = {.t = *t, .e = e, .surface = (uint32_t)name, .which = (name & QN_SPAN_LARGER) != 0};
+  *t = qn_place_round(work->scene, work->scratch, &line, &place);
+  return qn_scratch_ctx(work->scratch)->failed;
+}
+
+/* The j-th ends of all lanes at once: neighbours' are mostly on one surface. */
+static quoin_status round_all(quoin_work *work, const quoin_ray *rays, uint64_t lanes) {
+  qn_sheaf *s = work->sheaf;
+  qn_packet_hits hits;
+  _Alignas(64) double rounded[QN_LANES];
+  quoin_end *end[QN_LANES];
+  quoin_status status = QUOIN_OK;
+  for (uint32_t j = 0; lanes && status == QUOIN_OK; j++) {
+    uint64_t now = 0;
+    for (uint64_t m = lanes; m; m &= m - 1) {
+      unsigned lane = qn_trailing_zeros(m);
+      size_t at = s->first[lane] + j / 2;
+      if (at == s->first[lane + 1]) {
+        lanes &= ~((uint64_t)1 << lane);
+        continue;
+      }
+      uint64_t name = s->names[2 * at + j % 2];
+      if (name == QN_SHEAF_CUT) {
+        continue;
+      }
+      end[lane] = j % 2 ? &s->found[at].leave : &s->found[at].enter;
+      hits.t[lane] = end[lane]->t, hits.error[lane] = s->spans.tolerance[lane] / 2;
+      hits.surface[lane] = (uint32_t)name;
+      now |= (uint64_t)1 << lane;
+    }
+    uint64_t sure = now ? work->wide->round(work->scene, &s->packet, &hits, now, rounded, &qn_scratch_counts(work->scratch)->exact_forms) : 0;
+    for (uint64_t m = sure; m; m &= m - 1) {
+      unsigned lane = qn_trailing_zeros(m);
+      end[lane]->t = rounded[lane];
+    }
+    for (uint64_t m = now & ~sure; m && status == QUOIN_OK; m &= m - 1) {
+      unsigned lane = qn_trailing_zeros(m);
+      status = round_alone(work, &rays[lane], hits.error[lane], s->names[2 * (s->first[lane] + j / 2) + j % 2], &end[lane]->t);
+    }
+  }
+  return status;
+}
+
+/* --- the packet ------------------------------------------------------------------------------------------------------------ */
+
+static quoin_status solve(quoin_work *work) {
+  qn_sheaf *s = work->sheaf;
+  qn_counts *counts = qn_scratch_counts(work->scratch);
+  for (;;) {
+    qn_wide_counts wide = {0};
+    (s->packet.few ? work->wide->spans_few : work->wide->spans)(work->scene, &s->packet, &s->spans, &wide);
+    counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
+    if (!s->spans.full) {
+      return QUOIN_OK;
+    }
+    if (s->spans.capacity >= MOST_SLOTS) { /* so many that woven rays are no worse */
+      s->spans.unsure = s->packet.live;
+      return QUOIN_OK;
+    }
+    if (!room_for_slots(work, 4 * s->spans.capacity)) {
+      return QUOIN_E_MEMORY;
+    }
+  }
+}
+
+quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, uint64_t *sure) {
+  *sure = 0;
+  if (!make(work)) {
+    return QUOIN_E_MEMORY;
+  }
+  qn_sheaf *s = work->sheaf;
+  qn_packet_fill(&s->packet, n <= QN_FEW ? QN_FEW : QN_LANES, n, rays);
+  quoin_status status = solve(work);
+  if (status != QUOIN_OK) {
+    return status;
+  }
+  uint32_t most = 0;
+  for (unsigned g = 0; g < QN_LANES / work->wide->width; g++) {
+    most = s->spans.count[g] > most ? s->spans.count[g] : most;
+  }
+  if (!qn_grow(work->mem, &s->events, &s->event_capacity, 2 * (size_t)most) || !qn_grow(work->mem, &s->sorting, &s->sorting_capacity, 2 * (size_t)most)) {
+    return QUOIN_E_MEMORY;
+  }
+  s->found_count = 0;
+  for (unsigned lane = 0; lane < n; lane++) {
+    const size_t began = s->found_count, room = began + most + 1; /* a stretch for every second end, and one more */
+    s->first[lane] = (uint32_t)began;
+    if (s->spans.unsure >> lane & 1 || !(rays[lane].from < rays[lane].to)) {
+      *sure |= (uint64_t)!(s->spans.unsure >> lane & 1) << lane;
+      continue;
+    }
+    if (!qn_grow(work->mem, &s->found, &s->found_capacity, room) || !qn_grow(work->mem, &s->names, &s->name_capacity, 2 * room)) {
+      return QUOIN_E_MEMORY;
+    }
+    if (weave(work, lane)) {
+      *sure |= (uint64_t)1 << lane;
+    } else {
+      s->found_count = began;
+    }
+  }
+  s->first[n] = (uint32_t)s->found_count;
+  qn_counts *counts = qn_scratch_counts(work->scratch);
+  counts->rays += (uint64_t)__builtin_popcountll(*sure);
+  counts->exact_rays += n - (uint64_t)__builtin_popcountll(*sure);
+  return round_all(work, rays, *sure);
+}

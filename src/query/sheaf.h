@@ -1,0 +1,28 @@
+/* All stretches of rays that go together: a packet's stretches in the leaves (wide/packet.h), merged lane by lane. */
+#ifndef QN_QUERY_SHEAF_H
+#define QN_QUERY_SHEAF_H
+
+#include "query/work.h"
+
+/* What a place is made of, for who rounds it: a payload of wide/packet.h, or QN_SHEAF_CUT where the ray is cut or infinite. */
+#define QN_SHEAF_CUT UINT64_MAX
+
+typedef struct qn_sheaf_event { double t; uint64_t name; } qn_sheaf_event; /* name: a payload, and QN_SHEAF_ENTERS */
+#define QN_SHEAF_ENTERS ((uint64_t)1 << 63)
+
+struct qn_sheaf {
+  qn_packet packet;
+  qn_packet_spans spans;
+  uint32_t *count;       /* by gate: true children; at rest (every leaf outside) between lanes */
+  qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
+  quoin_interval *found; size_t found_count, found_capacity;
+  uint64_t *names;       size_t name_capacity; /* two for each of found */
+  uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
+};
+
+/* The stretches of n rays, at most QN_LANES, each with a finite origin and direction, as one packet. *sure: the rays that are answered: of ray i, found from first[i]
+   on, in full and as the woven path would; the others are for that path. Rays that do not go together are slow here. */
+quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, uint64_t *sure);
+void qn_sheaf_free(quoin_work *work);
+
+#endif

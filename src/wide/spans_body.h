@@ -1,0 +1,133 @@
+/* Every stretch of a packet's rays in the leaves that they meet. Compiled behind packet_body.h for each instruction set and number of lanes.
+
+   The hierarchy of all leaves is walked once for the packet, nearest boxes first, so that a lane's stretches come nearly in order; each leaf
+   is solved for the lanes whose boxes meet its own. Merging is left to others: it takes the order of ends, which the tolerances certify. */
+#ifndef QN_WIDE_SPANS_BODY_H
+#define QN_WIDE_SPANS_BODY_H
+
+#include "wide/term.h"
+
+_Static_assert(QN_SPAN_LARGER == QN_LARGER_ROOT && QN_SPAN_LEAF == QN_LEAF_BITS, "packet.h tells what payloads are");
+
+/* The sub-packets that may meet the box of a node's child, as lanes. */
+QN_INLINE uint64_t subs_meet_child(const walk *w, const qn_bvh_node *n, unsigned child) {
+  vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
+  for (int i = 0; i < 3; i++) {
+    bmin[i] = fset(n->min[i][child]), bmax[i] = fset(n->max[i][child]);
+    omin[i] = fload(w->f.p->omin[i]), omax[i] = fload(w->f.p->omax[i]), imin[i] = fload(w->f.p->imin[i]), imax[i] = fload(w->f.p->imax[i]);
+  }
+  return eights(slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when));
+}
+
+QN_INLINE void leaf_spans_of(walk *w, qn_piece_kind kind, const qn_piece_head *head, uint64_t mask, qn_packet_spans *out) {
+  piece_constants k;
+  if (kind == QN_PIECE_SPHERE) {
+    sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k.sphere);
+  } else if (kind == QN_PIECE_BOX) {
+    box_prepare(&w->f, (const qn_piece_box *)(const void *)head, &k.box);
+  } else {
+    piece_prepare(w, head, &k);
+  }
+  for (int g = 0; g < QN_GROUPS; g++) {
+    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
+    if (!in) {
+      continue;
+    }
+    w->counts.leaves++;
+    stretch s = kind == QN_PIECE_SPHERE ? sphere_solve(&w->f, &k.sphere, g) : kind == QN_PIECE_BOX ? box_solve(&w->f, &k.box, g) : piece_solve(w, head, &k, g);
+    w->unsure |= (uint64_t)(vbits(s.unsure) & in) << (g * QN_W);
+    vm hit = vand(s.hit, vmask(in));
+    unsigned bits = vbits(hit);
+    if (!bits) {
+      continue;
+    }
+    note_errors(w, g, s.error, hit);
+    if (QN_UNLIKELY(out->count[g] == out->capacity)) {
+      out->full = 1;
+      return;
+    }
+    size_t slot = (size_t)g * out->capacity + out->count[g]++;
+    double *v = out->ends + slot * 4 * QN_W;
+    vstore(v, s.a), vstore(v + QN_W, s.b), vstore(v + 2 * QN_W, s.pa), vstore(v + 3 * QN_W, s.pb);
+    out->hit[slot] = (uint8_t)bits;
+  }
+}
+
+static void leaf_spans(walk *w, uint32_t leaf, uint64_t mask, qn_packet_spans *out) {
+  if (w->scene->leaves[leaf].gate == QN_NO_GATE) {
+    return; /* it has no part in the answer */
+  }
+  const qn_piece_head *head = piece_at(w, leaf);
+  switch ((qn_piece_kind)head->kind) {
+  case QN_PIECE_SPHERE: leaf_spans_of(w, QN_PIECE_SPHERE, head, mask, out); return;
+  case QN_PIECE_BOX: leaf_spans_of(w, QN_PIECE_BOX, head, mask, out); return;
+  case QN_PIECE_MEET: out->limited = 1; break;
+  case QN_PIECE_ROUND: case QN_PIECE_HARD: break;
+  }
+  leaf_spans_of(w, QN_PIECE_ROUND, head, mask, out);
+}
+
+void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *out, qn_wide_counts *counts);
+void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *out, qn_wide_counts *counts) {
+  walk w;
+  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
+  out->full = out->limited = 0, out->unsure = 0, out->reach = INFINITY;
+  memset(out->count, 0, sizeof out->count);
+  counts->packets++;
+  if (!facts(&w, packet)) { /* numbers for which no bound is given */
+    out->unsure = packet->live;
+    return;
+  }
+  if (packet->tile == QN_TILE_ORIGINS) {
+    fill_tile(packet, packet->o);
+  }
+  double from = INFINITY, to = -INFINITY;
+  uint64_t mask = 0;
+  for (uint64_t m = packet->live; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    mask |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
+    from = least(from, packet->from[k]), to = most(to, packet->to[k]);
+  }
+  for (int j = 0; j < QN_LANES_NOW; j += QN_W) {
+    vstore(w.tolerance + j, vset(0));
+  }
+  for (size_t i = 0; i < scene->unbounded_count; i++) {
+    leaf_spans(&w, scene->unbounded[i], mask & ~w.unsure, out);
+  }
+  struct { float near; uint32_t child, node, slot; } stack[STACK];
+  int top = 0;
+  const double most_t = QN_WIDE_LARGEST; /* as a float; what lies beyond is not told apart */
+  const float start = from < -most_t ? -INFINITY : down(least(from, most_t)), end = to > most_t ? INFINITY : up(most(to, -most_t));
+  if (scene->bvh.node_count && mask) {
+    stack[top].near = -INFINITY, stack[top].child = 0, stack[top].node = stack[top].slot = 0, top++;
+  }
+  while (top && !out->full) {
+    top--;
+    uint32_t at = stack[top].child;
+    if (at & QN_BVH_LEAF) {
+      uint64_t in = subs_meet_child(&w, &scene->bvh.nodes[stack[top].node], stack[top].slot) & mask & ~w.unsure;
+      if (in) {
+        leaf_spans(&w, scene->bvh.items[at & ~QN_BVH_LEAF], in, out);
+      }
+      continue;
+    }
+    const qn_bvh_node *n = &scene->bvh.nodes[at];
+    _Alignas(32) float near[8];
+    w.counts.nodes++;
+    int first = top;
+    for (unsigned meets = node_meets(&w, n, start, end, near); meets; meets &= meets - 1) { /* farthest first, so that the nearest is taken next */
+      unsigned c = qn_trailing_zeros(meets);
+      int j = top++;
+      for (; j > first && stack[j - 1].near < near[c]; j--) {
+        stack[j] = stack[j - 1];
+      }
+      stack[j].near = near[c], stack[j].child = n->child[c], stack[j].node = at, stack[j].slot = c;
+    }
+  }
+  memcpy(out->tolerance, w.tolerance, sizeof w.tolerance);
+  out->unsure = w.unsure & packet->live;
+  out->reach = w.f.reach;
+  counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
+}
+
+#endif
