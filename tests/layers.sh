@@ -6,6 +6,7 @@
 #  3. Every public header compiles alone as C99 and as C++.
 #  4. No internal header and no internal name is in a public header.
 #  5. Every bound of src/base/bounds.h is derived, by its name, in docs/bounds.md.
+#  6. No source has more than 600 lines.
 set -u
 source=$1 cc=$2 cxx=$3 library=$4
 failures=$(mktemp)
@@ -74,6 +75,12 @@ bounds=$(sed -n 's/^#define \(QN_[A-Z0-9_]*\).*/\1/p' "$source/src/base/bounds.h
 [ -n "$bounds" ] || complain "no bounds found"
 for name in $bounds; do
   grep -qw "$name" "$source/docs/bounds.md" || complain "docs/bounds.md does not derive $name"
+done
+
+# --- 6. length -------------------------------------------------------------------------------------------------------
+for file in "$source"/src/*/*.[ch] "$source"/include/quoin/*.h; do
+  lines=$(wc -l < "$file")
+  [ "$lines" -le 600 ] || complain "$file has $lines lines"
 done
 
 if [ -s "$failures" ]; then
