@@ -19,19 +19,19 @@ enum { FEW_SLOTS = 24, SLOTS_AT_FIRST = 30, MOST_SLOTS = 1 << 12 };
 /* --- room ------------------------------------------------------------------------------------------------------------ */
 
 static size_t ends_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES * 4 * sizeof *s->ends; }
-static size_t hits_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES / 2; }
+static size_t slots_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES / 2 * sizeof *s->slots; }
 
 static int room_for_slots(quoin_work *work, uint32_t capacity) {
   qn_packet_spans *s = &work->sheaf->spans;
   qn_free_line(work->mem, s->ends, ends_size(s));
-  qn_free(work->mem, s->hit, hits_size(s));
+  qn_free(work->mem, s->slots, slots_size(s));
   s->capacity = capacity;
   s->ends = qn_alloc_line(work->mem, ends_size(s));
-  s->hit = qn_alloc(work->mem, hits_size(s));
-  if (!s->ends || !s->hit) {
+  s->slots = qn_alloc(work->mem, slots_size(s));
+  if (!s->ends || !s->slots) {
     qn_free_line(work->mem, s->ends, ends_size(s));
-    qn_free(work->mem, s->hit, hits_size(s));
-    s->ends = NULL, s->hit = NULL, s->capacity = 0;
+    qn_free(work->mem, s->slots, slots_size(s));
+    s->ends = NULL, s->slots = NULL, s->capacity = 0;
     return 0;
   }
   return 1;
@@ -64,7 +64,7 @@ void qn_sheaf_free(quoin_work *work) {
     return;
   }
   qn_free_line(work->mem, s->spans.ends, ends_size(&s->spans));
-  qn_free(work->mem, s->spans.hit, hits_size(&s->spans));
+  qn_free(work->mem, s->spans.slots, slots_size(&s->spans));
   qn_free(work->mem, s->count, work->scene->program.gate_count * sizeof *s->count);
   qn_free(work->mem, s->events, s->event_capacity * sizeof *s->events);
   qn_free(work->mem, s->sorting, s->sorting_capacity * sizeof *s->sorting);
@@ -103,18 +103,19 @@ static void merge_runs(event *e, event *spare, size_t n, size_t width) {
 static size_t gather(qn_sheaf *s, unsigned width, unsigned lane) {
   const unsigned g = lane / width, i = lane % width;
   const uint32_t slots = s->spans.count[g];
-  const uint8_t *hit = s->spans.hit + (size_t)g * s->spans.capacity;
+  const qn_span_slot *slot = s->spans.slots + (size_t)g * s->spans.capacity;
   const double *ends = s->spans.ends + (size_t)g * s->spans.capacity * 4 * width + i;
   event *e = s->events;
   size_t n = 0, run = 0;
   for (uint32_t k = 0; k < slots; k++, ends += 4 * (size_t)width) {
-    if (!(hit[k] >> i & 1)) {
+    if (!(slot[k].hit >> i & 1)) {
       continue;
     }
     uint64_t enter, leave;
     memcpy(&enter, ends + 2 * width, 8), memcpy(&leave, ends + 3 * width, 8);
-    n = run + insert(e + run, n - run, ends[0], enter | QN_SHEAF_ENTERS);
-    n = run + insert(e + run, n - run, ends[width], leave);
+    const uint64_t who = (uint64_t)slot[k].leaf << 32;
+    n = run + insert(e + run, n - run, ends[0], (enter & SAME_PLACE) | who | QN_SHEAF_ENTERS);
+    n = run + insert(e + run, n - run, ends[width], (leave & SAME_PLACE) | who);
     run = n - run >= 2 * FEW_SLOTS ? n : run;
   }
   if (run) {

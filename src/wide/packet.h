@@ -56,10 +56,11 @@ typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet
 
 /* Every stretch of each lane in each leaf that it meets: for whoever merges them (query/spans.h). Lanes lie in groups of `width`; slot s of
    group g holds one leaf's stretches, four times `width` doubles from ends + ((g capacity + s) 4 width): where they begin, where they
-   end, and the payloads of both (below). An end that is not there lies at -QN_SPAN_FAR or QN_SPAN_FAR. */
+   end, and the payloads of both (below). An end that is not there lies at -QN_SPAN_FAR or QN_SPAN_FAR, its payload means nothing. */
+typedef struct qn_span_slot { uint32_t leaf, hit; } qn_span_slot; /* hit: the lanes of the group that meet the leaf */
 typedef struct qn_packet_spans {
   double *ends;          /* aligned to 64 */
-  uint8_t *hit;          /* of slot s of group g, at g capacity + s: the lanes that meet the leaf */
+  qn_span_slot *slots;   /* slot s of group g is slots[g capacity + s] */
   uint32_t capacity;     /* slots for each group */
   uint32_t count[QN_LANES / 2]; /* slots in use, by group */
   int full;              /* there were not enough slots: the answer is void */

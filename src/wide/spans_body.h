@@ -49,7 +49,7 @@ QN_INLINE void leaf_spans_of(walk *w, qn_piece_kind kind, const qn_piece_head *h
     size_t slot = (size_t)g * out->capacity + out->count[g]++;
     double *v = out->ends + slot * 4 * QN_W;
     vstore(v, s.a), vstore(v + QN_W, s.b), vstore(v + 2 * QN_W, s.pa), vstore(v + 3 * QN_W, s.pb);
-    out->hit[slot] = (uint8_t)bits;
+    out->slots[slot] = (qn_span_slot){head->leaf, bits};
   }
 }
 

@@ -1,0 +1,243 @@
+/* All stretches of rays in packets against the woven path: every answer must be the woven path's to the last byte, ends, parts, surfaces and
+   stretches in the boundary, on every instruction set this machine runs, in packets of any size, be the rays alike or not.
+
+   Run with a number for more: query_test_sheaf [models [seed]]. Prints how many rays packets gave up. */
+#include "ask.h"
+#include "query/look.h"
+#include "query/sheaf.h"
+
+#include "packet_cases.h"
+
+static size_t model_count = 250;
+static uint64_t first_seed = 0x9e3779b97f4a7c15u;
+static const char *isas[3];
+static size_t isa_count, failures;
+enum { failures_shown = 3, MOST = 600 };
+
+static void find_isas(void) {
+  static const char *const names[3] = {"sse2", "avx2", "avx512"};
+  for (size_t i = 0; i < 3; i++) {
+    setenv("QUOIN_ISA", names[i], 1);
+    if (strcmp(qn_wide_pick()->name, names[i]) == 0) {
+      isas[isa_count++] = names[i];
+    }
+  }
+  unsetenv("QUOIN_ISA");
+}
+
+/* A ray's answer by the woven path alone. */
+typedef struct truth {
+  quoin_status status;
+  size_t count, boundary_count;
+  quoin_interval inside[MOST], boundary[MOST];
+} truth;
+
+static void weave_ray(const ask *a, const quoin_ray *ray, truth *out) {
+  quoin_intervals v;
+  *out = (truth){.status = quoin_ray_intervals(a->scene, a->work, ray, QUOIN_WANT_BOUNDARY, &v)};
+  if (out->status == QUOIN_OK) {
+    assert_true(v.count <= MOST && v.boundary_count <= MOST);
+    out->count = v.count, out->boundary_count = v.boundary_count;
+    memcpy(out->inside, v.inside, v.count * sizeof *v.inside);
+    memcpy(out->boundary, v.boundary, v.boundary_count * sizeof *v.boundary);
+  }
+}
+
+static int same_end(const quoin_end *x, const quoin_end *y) { return memcmp(&x->t, &y->t, sizeof x->t) == 0 && x->part == y->part && x->role == y->role; }
+static int same(size_t n, const quoin_interval *x, size_t m, const quoin_interval *y) {
+  int all = n == m;
+  for (size_t i = 0; i < n && all; i++) {
+    all = same_end(&x[i].enter, &y[i].enter) && same_end(&x[i].leave, &y[i].leave);
+  }
+  return all;
+}
+
+typedef struct share { uint64_t rays, unsure, stretches, cut; } share;
+static share by_model[MODELS], by_bundle[BUNDLES];
+
+static void show(const char *what, size_t n, const quoin_interval *v) {
+  printf("%s %zu:", what, n);
+  for (size_t i = 0; i < n; i++) {
+    printf(" [%.17g (%u %u), %.17g (%u %u)]", v[i].enter.t, v[i].enter.part, v[i].enter.role, v[i].leave.t, v[i].leave.part, v[i].leave.role);
+  }
+  printf("\n");
+}
+
+static void blame(const char *text, const char *isa, int model, int bundle, const quoin_ray *ray, const truth *want, size_t n, const quoin_interval *got) {
+  if (failures++ < failures_shown) {
+    printf("%s, %s, %s\n%s", isa, MODEL_NAMES[model], BUNDLE_NAMES[bundle], text);
+    printf("ray {{%a, %a, %a}, {%a, %a, %a}, %a, %a}\n", ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2], ray->from, ray->to);
+    show("woven", want->count, want->inside);
+    show("packet", n, got);
+  }
+}
+
+static int is_line(const quoin_ray *r) {
+  double finite = 0, size = 0;
+  for (int i = 0; i < 3; i++) {
+    finite += 0 * r->o[i] + 0 * r->d[i];
+    size += r->d[i] != 0;
+  }
+  return finite == 0 && size > 0 && r->from <= r->to;
+}
+
+typedef struct asked {
+  const char *text, *isa;
+  int model, bundle;
+  const quoin_ray *rays;
+  const truth *want;
+  size_t answers;
+} asked;
+
+static int each(void *user, size_t i, const quoin_intervals *got) {
+  asked *q = user;
+  const truth *w = &q->want[i];
+  if (i != q->answers++ || !same(got->count, got->inside, w->count, w->inside) || !same(got->boundary_count, got->boundary, w->boundary_count, w->boundary) || got->contact_count) {
+    blame(q->text, q->isa, q->model, q->bundle, &q->rays[i], w, got->count, got->inside);
+  }
+  return 0;
+}
+
+static truth want[QN_LANES];
+
+static void one_bundle(dice *d, const ask *a, const char *text, int model, int bundle, const frame *f) {
+  quoin_ray rays[QN_LANES];
+  fill_bundle(d, bundle, f, rays);
+  for (int i = 0; i < QN_LANES; i++) {
+    if (!is_line(&rays[i])) {
+      return;
+    }
+    weave_ray(a, &rays[i], &want[i]);
+    if (want[i].status != QUOIN_OK) {
+      return;
+    }
+  }
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    asked q = {text, isas[k], model, bundle, rays, want, 0};
+    size_t n = roll(d, 2) ? QN_LANES : 1 + (size_t)roll(d, QN_LANES);
+    assert_int_equal(quoin_ray_intervals_many(a->scene, work, n, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+    assert_int_equal(q.answers, n);
+    /* As packets, be they alike or not. */
+    size_t first = (size_t)roll(d, QN_LANES - 8), sizes[2] = {QN_LANES, 1 + (size_t)roll(d, QN_FEW)}, begins[2] = {0, first};
+    for (int pass = 0; pass < 2; pass++) {
+      uint64_t sure;
+      assert_int_equal(qn_sheaf_rays(work, sizes[pass], rays + begins[pass], &sure), QUOIN_OK);
+      const qn_sheaf *s = work->sheaf;
+      for (size_t g = 0; g < a->scene->program.gate_count; g++) {
+        assert_int_equal(s->count[g], a->scene->program.gates[g].base);
+      }
+      for (size_t i = 0; i < sizes[pass]; i++) {
+        const truth *w = &want[begins[pass] + i];
+        share *shares[2] = {&by_model[model], &by_bundle[bundle]};
+        for (int j = 0; j < 2; j++) {
+          shares[j]->rays++, shares[j]->unsure += !(sure >> i & 1), shares[j]->stretches += w->count;
+          shares[j]->cut += w->count && (w->inside[0].enter.part == QUOIN_NO_PART || w->inside[w->count - 1].leave.part == QUOIN_NO_PART);
+        }
+        const quoin_interval *got = s->found + s->first[i];
+        if (sure >> i & 1 && (w->boundary_count || !same(s->first[i + 1] - s->first[i], got, w->count, w->inside))) {
+          blame(text, isas[k], model, bundle, &rays[begins[pass] + i], w, s->first[i + 1] - s->first[i], got);
+        }
+      }
+    }
+    quoin_work_free(work);
+  }
+}
+
+static void report(const char *name, const share *s) {
+  print_message("  %-22s %8llu rays, %8llu stretches, %7llu rays cut, %5.2f %% given up\n", name, (unsigned long long)s->rays, (unsigned long long)s->stretches,
+                (unsigned long long)s->cut, s->rays ? 100 * (double)s->unsure / (double)s->rays : 0);
+}
+
+static void random_models(void **state) {
+  (void)state;
+  dice d = {first_seed};
+  static char text[20000];
+  for (size_t n = 0; n < model_count; n++) {
+    frame f;
+    int model = (int)(n % MODELS);
+    make_frame(&d, roll(&d, 2) ? 0 : roll(&d, FRAMES), &f);
+    write_model(&d, model, &f, text, sizeof text);
+    ask a;
+    ask_open(&a, text);
+    for (int k = 0; k < 8; k++) {
+      one_bundle(&d, &a, text, model, roll(&d, BUNDLES), &f);
+    }
+    ask_close(&a);
+  }
+  for (int i = 0; i < MODELS; i++) {
+    report(MODEL_NAMES[i], &by_model[i]);
+  }
+  for (int i = 0; i < BUNDLES; i++) {
+    report(BUNDLE_NAMES[i], &by_bundle[i]);
+  }
+  assert_int_equal(failures, 0);
+  for (int i = 0; i < MODELS; i++) {
+    assert_true(by_model[i].stretches > 0 && by_model[i].cut > 0);
+    assert_true(i == MODELS - 1 || 4 * by_model[i].unsure < 3 * by_model[i].rays); /* superquadrics are not for packets */
+  }
+}
+
+/* More stretches on a ray than there is room for at first, in leaves that share their planes; a fence seen from its end, and cut. */
+static void long_rays(void **state) {
+  (void)state;
+  static char text[200000];
+  size_t at = (size_t)snprintf(text, sizeof text, "difference() { translate([-1,-1,-1]) cube([302,3,3]); union() {\n");
+  for (int i = 0; i < 150; i++) {
+    at += (size_t)snprintf(text + at, sizeof text - at, "translate([%d,-2,-2]) cube([%s,5,5]); translate([%d,0,-2]) cylinder(r=0.25,h=5);\n", 2 * i, i % 3 ? "1" : "0.5", 2 * i + 1);
+  }
+  snprintf(text + at, sizeof text - at, "} }\n");
+  ask a;
+  ask_open(&a, text);
+  quoin_ray rays[QN_LANES];
+  for (int i = 0; i < QN_LANES; i++) {
+    rays[i] = (quoin_ray){{-5, 0.011 * i - 0.3, 0.01}, {1, 0.0001 * i, 0.001}, i % 3 ? -HUGE_VAL : 20.125, i % 5 ? HUGE_VAL : 100.25};
+    weave_ray(&a, &rays[i], &want[i]);
+    assert_true(want[i].status == QUOIN_OK && want[i].count > 30);
+  }
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    asked q = {"a fence\n", isas[k], 0, 0, rays, want, 0};
+    assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+    uint64_t sure;
+    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, &sure), QUOIN_OK);
+    assert_true(__builtin_popcountll(sure) > 60);
+    quoin_work_free(work);
+  }
+  ask_close(&a);
+  assert_int_equal(failures, 0);
+}
+
+/* What the call refuses, and when: answers before a wrong ray are given. */
+static void wrong_rays(void **state) {
+  (void)state;
+  ask a;
+  ask_open(&a, "sphere(2);\n");
+  quoin_ray rays[40];
+  for (int i = 0; i < 40; i++) {
+    rays[i] = (quoin_ray){{-5, 0.01 * i, 0}, {1, 0, 0}, 0, HUGE_VAL};
+    weave_ray(&a, &rays[i], &want[i]);
+  }
+  rays[21].d[0] = 0;
+  asked q = {"sphere(2);\n", "any", 0, 0, rays, want, 0};
+  assert_int_equal(quoin_ray_intervals_many(a.scene, a.work, 40, rays, 0, each, &q), QUOIN_E_ARGUMENT);
+  assert_int_equal(q.answers, 21);
+  assert_int_equal(quoin_ray_intervals_many(a.scene, a.work, 40, rays, 64, each, &q), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_ray_intervals_many(a.scene, a.work, 0, NULL, 0, each, &q), QUOIN_OK);
+  assert_int_equal(q.answers, 21);
+  ask_close(&a);
+}
+
+int main(int words, char **word) {
+  model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
+  first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
+  find_isas();
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(random_models)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
