@@ -120,6 +120,12 @@ QUOIN_API quoin_status quoin_ray_intervals_many(const quoin_scene *scene, quoin_
 QUOIN_API quoin_status quoin_ray_intervals_text(const quoin_scene *scene, quoin_work *work, const char *const ray[6], const char *from, const char *to,
                                                 unsigned want, quoin_intervals *out);
 
+/* Many rays as decimals, six texts after six: calls each(user, i, answer) for every ray in order, as quoin_ray_intervals_many does; a status about
+   a ray is returned after the answers to all rays before it. */
+QUOIN_API quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *rays, const char *from,
+                                                     const char *to, unsigned want, int (*each)(void *user, size_t i, const quoin_intervals *answer),
+                                                     void *user);
+
 /* The first boundary at or after from (and not after to). */
 typedef struct quoin_hit {
   int found;

@@ -140,6 +140,8 @@
    for S <= QN_ROUND_LARGEST and D within QN_ROUND_WIDEST and its inverse. Coefficients below 2^QN_ROUND_DROP are dropped: the three
    sizes named tiny, added to K2, K1 and K0, cover that and any underflow. */
 #define QN_ROUND_EVAL 0x1p-98
+/* QN_ROUND_PAIR_EVAL instead, and S with sum |o_j| more, where o and d are pairs of doubles within 2^-104 of the line's numbers. */
+#define QN_ROUND_PAIR_EVAL 0x1p-97
 #define QN_ROUND_SLOPE (32 * QN_U)
 #define QN_ROUND_DROP (-240)
 #define QN_ROUND_SQUARE_TINY 0x1p-236

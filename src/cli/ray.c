@@ -145,6 +145,28 @@ static quoin_status answer(void *user, unsigned thread, quoin_work *work, const 
   return status;
 }
 
+typedef struct writing {
+  const context *c;
+  cli_text *text;
+  size_t done;
+} writing;
+
+static int write_one(void *user, size_t i, const quoin_intervals *a) {
+  writing *w = user;
+  (w->c->json ? put_json : put_text)(w->c, a, w->text);
+  w->done = i + 1;
+  return 0;
+}
+
+static quoin_status answer_many(void *user, unsigned thread, quoin_work *work, size_t n, const char *const *numbers, cli_text *text, size_t *done) {
+  (void)thread;
+  context *c = user;
+  writing w = {c, text, 0};
+  quoin_status status = quoin_ray_intervals_many_text(c->batch.scene, work, n, numbers, c->from, c->to, c->want, write_one, &w);
+  *done = w.done;
+  return status;
+}
+
 /* --from and --to are checked before the first ray, so that a wrong one is not taken for a wrong ray. */
 static int check_range(cli_batch *batch) {
   const context *c = batch->user;
@@ -172,7 +194,7 @@ static int check_range(cli_batch *batch) {
 }
 
 static int run(const cli_command *self, int argc, char **argv) {
-  context c = {.batch = {.kind = {"ray", "ox oy oz dx dy dz", 6}, .answer = answer, .user = &c}};
+  context c = {.batch = {.kind = {"ray", "ox oy oz dx dy dz", 6}, .answer = answer, .answer_many = answer_many, .user = &c}};
   cli_common common;
   int code = cli_parse(self, argc, argv, &common, take, &c);
   return code >= 0 ? code : cli_batch_run(&c.batch, self, &common, c.input, c.from || c.to ? check_range : NULL);

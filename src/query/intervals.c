@@ -1,4 +1,5 @@
 /* All stretches of a ray, as the public answer: places become correctly rounded parameters, ends get their part and surface. */
+#include "query/decimals.h"
 #include "query/look.h"
 #include "query/sheaf.h"
 
@@ -72,7 +73,7 @@ quoin_status quoin_ray_intervals(const quoin_scene *scene, quoin_work *work, con
 static quoin_status together(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, size_t first, unsigned want,
                              int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
   uint64_t sure;
-  quoin_status status = qn_sheaf_rays(work, n, rays, &sure);
+  quoin_status status = qn_sheaf_rays(work, n, rays, NULL, NULL, NULL, &sure);
   for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
     const qn_sheaf *sheaf = work->sheaf;
     quoin_intervals one = {sheaf->first[i + 1] - sheaf->first[i], sheaf->found + sheaf->first[i], 0, work->boundary, 0, work->contacts};
@@ -178,4 +179,78 @@ quoin_status quoin_ray_intervals_text(const quoin_scene *scene, quoin_work *work
   }
   qn_line_from_numbers(ctx, v, v + 3, &line);
   return ctx->failed != QUOIN_OK ? ctx->failed : answer(work, &line, &range, want, out);
+}
+
+/* --- many rays of decimals ------------------------------------------------------------------------------------------ */
+
+/* Some rays as packets take them. */
+typedef struct bunch {
+  quoin_ray rays[QN_LANES];
+  double low[QN_LANES][6];
+} bunch;
+
+/* Reads up to `most` rays into b; how many. It stops before one that packets do not take. */
+static size_t read_bunch(size_t most, const char *const *text, double from, double to, bunch *b) {
+  for (size_t n = 0; n < most; n++, text += 6) {
+    quoin_ray *ray = &b->rays[n];
+    ray->from = from, ray->to = to;
+    for (int k = 0; k < 6; k++) {
+      if (!qn_decimal_pair(text[k], k < 3 ? &ray->o[k] : &ray->d[k - 3], &b->low[n][k])) {
+        return n;
+      }
+    }
+    if (!is_ray(ray)) {
+      return n;
+    }
+  }
+  return most;
+}
+
+/* An end of the range as a double; 0 when it is none. */
+static int end_of_range(const char *text, double none, double *out) {
+  double low;
+  *out = none;
+  return !text || (qn_decimal_pair(text, out, &low) && low == 0);
+}
+
+static quoin_status line_of_text(quoin_work *work, const void *user, size_t i, qn_line *line) {
+  const char *const *text = user;
+  return qn_decimal_line(work, text + 6 * i, line);
+}
+
+quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *rays, const char *from, const char *to,
+                                           unsigned want, int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
+  if (!scene || !work || work->scene != scene || !each || (n != 0 && !rays) || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  double begin, end;
+  const int doubles = end_of_range(from, -HUGE_VAL, &begin) & end_of_range(to, HUGE_VAL, &end) & !(want & QUOIN_WANT_CONTACTS);
+  bunch b;
+  size_t have = 0; /* rays in b */
+  for (size_t at = 0, count, used = 0; at < n; at += count) {
+    if (used == have) {
+      have = doubles ? read_bunch(n - at < QN_LANES ? n - at : QN_LANES, rays + 6 * at, begin, end, &b) : 0;
+      used = 0;
+    }
+    count = have > used ? share(have - used, b.rays + used) : 1;
+    uint64_t sure = 0;
+    quoin_status status = have > used ? qn_sheaf_rays(work, count, b.rays + used, b.low + used, line_of_text, rays + 6 * at, &sure) : QUOIN_OK;
+    used += have > used ? count : 0;
+    for (size_t i = 0; i < count && status == QUOIN_OK; i++) {
+      const qn_sheaf *sheaf = work->sheaf;
+      quoin_intervals one = {0};
+      if (sure >> i & 1) {
+        one = (quoin_intervals){sheaf->first[i + 1] - sheaf->first[i], sheaf->found + sheaf->first[i], 0, work->boundary, 0, work->contacts};
+      } else {
+        status = quoin_ray_intervals_text(scene, work, rays + 6 * (at + i), from, to, want, &one);
+      }
+      if (status == QUOIN_OK && each(user, at + i, &one) != 0) {
+        status = QUOIN_E_CANCELLED;
+      }
+    }
+    if (status != QUOIN_OK) {
+      return status;
+    }
+  }
+  return QUOIN_OK;
 }

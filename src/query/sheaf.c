@@ -280,17 +280,32 @@ static int weave(quoin_work *work, unsigned lane) {
 
 /* --- parameters, correctly rounded ---------------------------------------------------------------------------------------- */
 
-static quoin_status round_alone(quoin_work *work, const quoin_ray *ray, double e, uint64_t name, double *t) {
+/* The rays of a packet, and how their lines are had. */
+typedef struct bundle {
+  const quoin_ray *rays;
+  qn_sheaf_line line;
+  const void *user;
+} bundle;
+
+static quoin_status round_alone(quoin_work *work, const bundle *b, size_t i, double e, uint64_t name, double *t) {
   qn_query_begin(work);
   qn_line line;
-  qn_line_from_doubles(ray->o, ray->d, &line);
+  quoin_status status = QUOIN_OK;
+  if (b->line) {
+    status = b->line(work, b->user, i, &line);
+  } else {
+    qn_line_from_doubles(b->rays[i].o, b->rays[i].d, &line);
+  }
+  if (status != QUOIN_OK) {
+    return status;
+  }
   const qn_place place = {.t = *t, .e = e, .surface = (uint32_t)name, .which = (name & QN_SPAN_LARGER) != 0};
   *t = qn_place_round(work->scene, work->scratch, &line, &place);
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
 /* The j-th ends of all lanes at once: neighbours' are mostly on one surface. */
-static quoin_status round_all(quoin_work *work, const quoin_ray *rays, uint64_t lanes) {
+static quoin_status round_all(quoin_work *work, const bundle *b, uint64_t lanes) {
   qn_sheaf *s = work->sheaf;
   qn_packet_hits hits;
   _Alignas(64) double rounded[QN_LANES];
@@ -321,7 +336,7 @@ static quoin_status round_all(quoin_work *work, const quoin_ray *rays, uint64_t 
     }
     for (uint64_t m = now & ~sure; m && status == QUOIN_OK; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
-      status = round_alone(work, &rays[lane], hits.error[lane], s->names[2 * (s->first[lane] + j / 2) + j % 2], &end[lane]->t);
+      status = round_alone(work, b, lane, hits.error[lane], s->names[2 * (s->first[lane] + j / 2) + j % 2], &end[lane]->t);
     }
   }
   return status;
@@ -349,13 +364,27 @@ static quoin_status solve(quoin_work *work) {
   }
 }
 
-quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, uint64_t *sure) {
+static void fill_low(qn_packet *p, size_t lanes, size_t n, double (*low)[6]) {
+  p->tile = QN_TILE_PAIRS;
+  for (size_t lane = 0; lane < lanes; lane++) {
+    const double *v = low[lane < n ? lane : n - 1];
+    for (int k = 0; k < 3; k++) {
+      p->olow[k][lane] = v[k], p->dlow[k][lane] = v[3 + k];
+    }
+  }
+}
+
+quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], qn_sheaf_line line, const void *user, uint64_t *sure) {
   *sure = 0;
   if (!make(work)) {
     return QUOIN_E_MEMORY;
   }
   qn_sheaf *s = work->sheaf;
-  qn_packet_fill(&s->packet, n <= QN_FEW ? QN_FEW : QN_LANES, n, rays);
+  const size_t lanes = n <= QN_FEW ? QN_FEW : QN_LANES;
+  qn_packet_fill(&s->packet, lanes, n, rays);
+  if (low) {
+    fill_low(&s->packet, lanes, n, low);
+  }
   quoin_status status = solve(work);
   if (status != QUOIN_OK) {
     return status;
@@ -388,5 +417,5 @@ quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, ui
   qn_counts *counts = qn_scratch_counts(work->scratch);
   counts->rays += (uint64_t)__builtin_popcountll(*sure);
   counts->exact_rays += n - (uint64_t)__builtin_popcountll(*sure);
-  return round_all(work, rays, *sure);
+  return round_all(work, &(bundle){rays, line, user}, *sure);
 }

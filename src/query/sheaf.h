@@ -20,9 +20,13 @@ struct qn_sheaf {
   uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
 };
 
-/* The stretches of n rays, at most QN_LANES, each with a finite origin and direction, as one packet. *sure: the rays that are answered: of ray i, found from first[i]
-   on, in full and as the woven path would; the others are for that path. Rays that do not go together are slow here. */
-quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, uint64_t *sure);
+/* Where the exact line of ray i is when it is wanted: after qn_query_begin. */
+typedef quoin_status (*qn_sheaf_line)(quoin_work *work, const void *user, size_t i, qn_line *line);
+
+/* The stretches of n rays, at most QN_LANES, each with a finite origin and direction, as one packet. *sure: the rays that are answered: of ray i, found from
+   first[i] on, in full and as the woven path would; the others are for that path. Rays that do not go together are slow here.
+   low: null, or for each ray the rests of its origin and direction (QN_TILE_PAIRS in wide/packet.h); line, user: null, or the lines where rays are not all of them. */
+quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], qn_sheaf_line line, const void *user, uint64_t *sure);
 void qn_sheaf_free(quoin_work *work);
 
 #endif

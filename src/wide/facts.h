@@ -116,6 +116,9 @@ static int facts(walk *w, qn_packet *p) {
   if (p->new_directions) {
     see_directions(p);
   }
+  for (int i = 0; i < 3; i++) {
+    f->share[i] = p->tile == QN_TILE_PAIRS ? most(fabs(p->low[i]), fabs(p->high[i])) : 0;
+  }
   double reach2 = 0;
   int in_range = p->dd_min >= 1 / (QN_WIDE_LARGEST * QN_WIDE_LARGEST) && p->dd_max <= QN_WIDE_LARGEST * QN_WIDE_LARGEST;
   for (int i = 0; i < 3; i++) {

@@ -20,12 +20,13 @@ typedef struct surface_numbers {
   const double *k[QN_W]; /* shared: k[0] alone */
   unsigned terms, axes;
   int shared;
+  int pairs; /* the rays have low parts */
 } surface_numbers;
 QN_INLINE vd number_of(const surface_numbers *f, int i) { return f->shared ? vset(f->k[0][i]) : vcollect(f->k, i); }
 QN_INLINE vd hi_of(const surface_numbers *f, int i) { return number_of(f, QN_ROUNDING_HI + i); }
 QN_INLINE vd lo_of(const surface_numbers *f, int i) { return number_of(f, QN_ROUNDING_LO + i); }
 
-typedef struct rough_places { vd o[3], d[3], t, e; } rough_places;
+typedef struct rough_places { vd o[3], d[3], t, e, olow[3], dlow[3]; } rough_places; /* low parts: where the surface_numbers say so */
 
 /* p and p' at t; bounds of their errors and of |a|; the lanes in whose range the bounds hold. */
 typedef struct residual { vd p, slope, p_error, slope_error, curve; vm sound; } residual;
@@ -48,6 +49,10 @@ QN_INLINE void find_coordinate(const surface_numbers *f, const rough_places *at,
     vdd x = vtwo_sum(w.hi, m.hi);
     s->y[j] = x.hi, s->low[j] = vadd(vadd(w.lo, m.lo), x.lo);
     s->S = vadd(s->S, vadd(vabs(w.hi), vabs(m.hi))), s->D = vadd(s->D, vabs(at->d[j]));
+    if (f->pairs) {
+      s->low[j] = vadd(s->low[j], vfma(at->t, at->dlow[j], at->olow[j]));
+      s->S = vadd(s->S, vabs(at->o[j]));
+    }
   }
 }
 
@@ -94,7 +99,7 @@ QN_INLINE residual residual_at(const surface_numbers *f, const rough_places *at)
   vd K2 = number_of(f, QN_ROUNDING_SQUARE), K1 = number_of(f, QN_ROUNDING_LINEAR), K0 = number_of(f, QN_ROUNDING_CONSTANT);
   vd KS = f->terms & 63 ? vmul(K2, s.S) : zero;
   residual r = {.p = vadd(p.hi, vadd(p.lo, rest)), .slope = slope};
-  r.p_error = vmul(vset(QN_ROUND_EVAL), vfma(vadd(KS, K1), s.S, K0));
+  r.p_error = vmul(vset(f->pairs ? QN_ROUND_PAIR_EVAL : QN_ROUND_EVAL), vfma(vadd(KS, K1), s.S, K0));
   r.slope_error = vmul(vmul(vset(QN_ROUND_SLOPE), s.D), vadd(vadd(KS, KS), K1));
   r.curve = f->terms & 63 ? vmul(vmul(K2, s.D), s.D) : zero;
   r.sound = vand(vle(s.S, vset(QN_ROUND_LARGEST)), vand(vle(vset(1 / QN_ROUND_WIDEST), s.D), vle(s.D, vset(QN_ROUND_WIDEST))));

@@ -25,9 +25,11 @@ typedef struct qn_packet {
   int new_origins, new_directions;
   int few; /* only the first QN_FEW lanes are there */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
-     body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. */
-  enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS } tile;
+     body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. TILE_PAIRS: so they are, and are rounded; the lines are o + olow and
+     d + dlow, to 2^-104 of each number, and |olow| is at most u |o|, |dlow| at most u |d|. */
+  enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS, QN_TILE_PAIRS } tile;
   double across[3][8], up[3][8];
+  _Alignas(64) double olow[3][QN_LANES], dlow[3][QN_LANES];
   _Alignas(64) double idd[QN_LANES], inv[3][QN_LANES]; /* 1 / (d . d); 1 / d_i, or 0 where d_i = 0 */
   _Alignas(64) float omin[3][8], omax[3][8], imin[3][8], imax[3][8]; /* of each eight lanes, rounded outward; i: of inv, widened */
   double low[3], high[3], dabs[3], dd_min, dd_max; /* of all lanes: origins, |d_i|, d . d */

@@ -18,10 +18,10 @@ static const int AXES[QN_ROUNDING_KINDS] = {1, 3, 2, 3, 3};
 
 /* --- groups that share a surface ------------------------------------------------------------------------------------ */
 
-/* Groups g to end - 1; kind is a constant wherever this is called. */
-QN_INLINE uint64_t run_of(qn_rounding_kind kind, const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g,
-                          int end, double *t) {
-  const surface_numbers f = {{surface->k}, TERMS[kind], (1u << AXES[kind]) - 1, 1};
+/* Groups g to end - 1; kind and pairs are constants wherever this is called. */
+QN_INLINE uint64_t run_of(qn_rounding_kind kind, int pairs, const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits,
+                          int g, int end, double *t) {
+  const surface_numbers f = {{surface->k}, TERMS[kind], (1u << AXES[kind]) - 1, 1, pairs};
   const double *o[3], *d[3];
   uint64_t sure = 0;
   for (int j = 0; j < AXES[kind]; j++) {
@@ -31,6 +31,9 @@ QN_INLINE uint64_t run_of(qn_rounding_kind kind, const qn_rounding *surface, con
     rough_places places = {.t = vload(hits->t + at), .e = vload(hits->error + at)};
     for (int j = 0; j < AXES[kind]; j++) {
       places.o[j] = vload(o[j] + at), places.d[j] = vload(d[j] + at);
+      if (pairs) {
+        places.olow[j] = vload(p->olow[surface->axis[j]] + at), places.dlow[j] = vload(p->dlow[surface->axis[j]] + at);
+      }
     }
     vd out;
     sure |= (uint64_t)vbits(round_places(&f, &places, &out)) << at;
@@ -39,16 +42,21 @@ QN_INLINE uint64_t run_of(qn_rounding_kind kind, const qn_rounding *surface, con
   return sure;
 }
 
-static uint64_t round_run(const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g, int end, double *t) {
+/* pairs: the rays have low parts. */
+QN_INLINE uint64_t run_of_kind(int pairs, const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g, int end, double *t) {
   switch ((qn_rounding_kind)surface->kind) {
-  case QN_ROUNDING_AXIS: return run_of(QN_ROUNDING_AXIS, surface, p, hits, g, end, t);
-  case QN_ROUNDING_PLANE: return run_of(QN_ROUNDING_PLANE, surface, p, hits, g, end, t);
-  case QN_ROUNDING_ROUND: return run_of(QN_ROUNDING_ROUND, surface, p, hits, g, end, t);
-  case QN_ROUNDING_DIAGONAL: return run_of(QN_ROUNDING_DIAGONAL, surface, p, hits, g, end, t);
-  case QN_ROUNDING_FULL: return run_of(QN_ROUNDING_FULL, surface, p, hits, g, end, t);
+  case QN_ROUNDING_AXIS: return run_of(QN_ROUNDING_AXIS, pairs, surface, p, hits, g, end, t);
+  case QN_ROUNDING_PLANE: return run_of(QN_ROUNDING_PLANE, pairs, surface, p, hits, g, end, t);
+  case QN_ROUNDING_ROUND: return run_of(QN_ROUNDING_ROUND, pairs, surface, p, hits, g, end, t);
+  case QN_ROUNDING_DIAGONAL: return run_of(QN_ROUNDING_DIAGONAL, pairs, surface, p, hits, g, end, t);
+  case QN_ROUNDING_FULL: return run_of(QN_ROUNDING_FULL, pairs, surface, p, hits, g, end, t);
   case QN_ROUNDING_NONE: break;
   }
   return 0;
+}
+
+static uint64_t round_run(const qn_rounding *surface, const qn_packet *p, const qn_packet_hits *hits, int g, int end, double *t) {
+  return p->tile == QN_TILE_PAIRS ? run_of_kind(1, surface, p, hits, g, end, t) : run_of_kind(0, surface, p, hits, g, end, t);
 }
 
 /* --- lanes with surfaces of their own ------------------------------------------------------------------------------- */
@@ -60,23 +68,27 @@ typedef struct gathered {
   const qn_rounding *surface[QN_LANES];
 } gathered;
 
-QN_INLINE uint64_t gathered_of(qn_rounding_kind kind, const gathered *list, const qn_packet *p, const qn_packet_hits *hits, double *t) {
-  surface_numbers f = {{NULL}, TERMS[kind], (1u << AXES[kind]) - 1, 0};
+QN_INLINE uint64_t gathered_of(qn_rounding_kind kind, int pairs, const gathered *list, const qn_packet *p, const qn_packet_hits *hits, double *t) {
+  surface_numbers f = {{NULL}, TERMS[kind], (1u << AXES[kind]) - 1, 0, pairs};
   uint64_t sure = 0;
   for (unsigned first = 0; first < list->count; first += QN_W) {
-    const double *o[3][QN_W], *d[3][QN_W], *near[QN_W], *error[QN_W];
+    const double *o[3][QN_W], *d[3][QN_W], *near[QN_W], *error[QN_W], *olow[3][QN_W], *dlow[3][QN_W];
     for (unsigned i = 0; i < QN_W; i++) {
       unsigned from = first + i < list->count ? first + i : first, lane = list->lane[from]; /* filled up with copies of the first */
       const qn_rounding *surface = list->surface[from];
       f.k[i] = surface->k;
       for (int j = 0; j < AXES[kind]; j++) {
         o[j][i] = &p->o[surface->axis[j]][lane], d[j][i] = &p->d[surface->axis[j]][lane];
+        olow[j][i] = &p->olow[surface->axis[j]][lane], dlow[j][i] = &p->dlow[surface->axis[j]][lane];
       }
       near[i] = &hits->t[lane], error[i] = &hits->error[lane];
     }
     rough_places places = {.t = vcollect(near, 0), .e = vcollect(error, 0)};
     for (int j = 0; j < AXES[kind]; j++) {
       places.o[j] = vcollect(o[j], 0), places.d[j] = vcollect(d[j], 0);
+      if (pairs) {
+        places.olow[j] = vcollect(olow[j], 0), places.dlow[j] = vcollect(dlow[j], 0);
+      }
     }
     vd rounded;
     _Alignas(64) double out[QN_W];
@@ -91,12 +103,16 @@ QN_INLINE uint64_t gathered_of(qn_rounding_kind kind, const gathered *list, cons
   return sure;
 }
 
+QN_INLINE uint64_t gathered_of_kinds(int pairs, const gathered lists[QN_ROUNDING_KINDS], const qn_packet *p, const qn_packet_hits *hits, double *t) {
+  return gathered_of(QN_ROUNDING_AXIS, pairs, &lists[QN_ROUNDING_AXIS], p, hits, t) |
+         gathered_of(QN_ROUNDING_PLANE, pairs, &lists[QN_ROUNDING_PLANE], p, hits, t) |
+         gathered_of(QN_ROUNDING_ROUND, pairs, &lists[QN_ROUNDING_ROUND], p, hits, t) |
+         gathered_of(QN_ROUNDING_DIAGONAL, pairs, &lists[QN_ROUNDING_DIAGONAL], p, hits, t) |
+         gathered_of(QN_ROUNDING_FULL, pairs, &lists[QN_ROUNDING_FULL], p, hits, t);
+}
+
 static uint64_t round_gathered(const gathered lists[QN_ROUNDING_KINDS], const qn_packet *p, const qn_packet_hits *hits, double *t) {
-  return gathered_of(QN_ROUNDING_AXIS, &lists[QN_ROUNDING_AXIS], p, hits, t) |
-         gathered_of(QN_ROUNDING_PLANE, &lists[QN_ROUNDING_PLANE], p, hits, t) |
-         gathered_of(QN_ROUNDING_ROUND, &lists[QN_ROUNDING_ROUND], p, hits, t) |
-         gathered_of(QN_ROUNDING_DIAGONAL, &lists[QN_ROUNDING_DIAGONAL], p, hits, t) |
-         gathered_of(QN_ROUNDING_FULL, &lists[QN_ROUNDING_FULL], p, hits, t);
+  return p->tile == QN_TILE_PAIRS ? gathered_of_kinds(1, lists, p, hits, t) : gathered_of_kinds(0, lists, p, hits, t);
 }
 
 /* --- a packet -------------------------------------------------------------------------------------------------------- */

@@ -37,12 +37,13 @@ QN_INLINE uint64_t payload_of(uint32_t surface, uint32_t leaf, uint64_t larger) 
 typedef struct packet_facts {
   const qn_packet *p;
   double reach; /* no |t| at which a ray is in the solid's box is larger; infinite in unbounded scenes */
+  double share[3]; /* QN_TILE_PAIRS: the largest |o_i|, whose rounding counts with |o_i - pivot_i|; else 0 */
 } packet_facts;
 
 QN_INLINE double least(double a, double b) { return b < a ? b : a; }
 QN_INLINE double most(double a, double b) { return b > a ? b : a; }
-/* The largest |o_i - pivot_i| of a packet. */
-QN_INLINE double farthest(const packet_facts *f, int i, double pivot) { return most(fabs(f->p->low[i] - pivot), fabs(f->p->high[i] - pivot)); }
+/* At least the largest |o_i - pivot_i| of a packet. */
+QN_INLINE double farthest(const packet_facts *f, int i, double pivot) { return most(fabs(f->p->low[i] - pivot), fabs(f->p->high[i] - pivot)) + f->share[i]; }
 
 /* A stretch of QN_W rays in a piece. Lanes not in `hit` and not in `unsure` surely miss. */
 typedef struct stretch { vd a, b, pa, pb, error; vm hit, unsure; } stretch;

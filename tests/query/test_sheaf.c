@@ -125,7 +125,7 @@ static void one_bundle(dice *d, const ask *a, const char *text, int model, int b
     size_t first = (size_t)roll(d, QN_LANES - 8), sizes[2] = {QN_LANES, 1 + (size_t)roll(d, QN_FEW)}, begins[2] = {0, first};
     for (int pass = 0; pass < 2; pass++) {
       uint64_t sure;
-      assert_int_equal(qn_sheaf_rays(work, sizes[pass], rays + begins[pass], &sure), QUOIN_OK);
+      assert_int_equal(qn_sheaf_rays(work, sizes[pass], rays + begins[pass], NULL, NULL, NULL, &sure), QUOIN_OK);
       const qn_sheaf *s = work->sheaf;
       for (size_t g = 0; g < a->scene->program.gate_count; g++) {
         assert_int_equal(s->count[g], a->scene->program.gates[g].base);
@@ -206,7 +206,7 @@ static void long_rays(void **state) {
     asked q = {"a fence\n", isas[k], 0, 0, rays, want, 0};
     assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     uint64_t sure;
-    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, &sure), QUOIN_OK);
+    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, NULL, NULL, NULL, &sure), QUOIN_OK);
     assert_true(__builtin_popcountll(sure) > 60);
     quoin_work_free(work);
   }

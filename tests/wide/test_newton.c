@@ -112,7 +112,7 @@ typedef struct census { unsigned sound, unsound, planes, mixed, near, dropped; d
 
 static void one_vector(census *c) {
   _Alignas(64) double k[QN_ROUNDING_NUMBERS] = {0}, o[3][QN_W], d[3][QN_W], t[QN_W];
-  surface_numbers f = {{k}, 0, 0, 1}, each = {{NULL}, 1023, 7, 0}; /* each: every term there, the missing ones as zeros */
+  surface_numbers f = {{k}, 0, 0, 1, 0}, each = {{NULL}, 1023, 7, 0, 0}; /* each: every term there, the missing ones as zeros */
   int plane = one_in(4), mixed = !plane && one_in(2), linear = plane || one_in(2), sphere = !plane && !mixed && one_in(2);
   int low = one_in(3) ? -40 : -4, scale = one_in(5) ? 40 : one_in(3) ? 20 : 3, far = one_in(4) ? (int)(next() % 38) : scale;
   scale = far < scale ? far : scale;
