@@ -61,6 +61,7 @@ typedef struct quoin_stats {
   uint64_t exact_signs;    /* signs taken in exact arithmetic */
   uint64_t exact_orders;   /* orders of two roots taken in exact arithmetic */
   uint64_t exact_rays;     /* rays answered whole by the exact path */
+  uint64_t exact_points;   /* points that wide code could not certify and the exact path answered; the other points took nothing else */
   uint64_t exact_roundings;/* reported parameters rounded in exact arithmetic */
   uint64_t exact_forms;    /* exact surfaces made on demand */
 } quoin_stats;

@@ -158,5 +158,10 @@
 #define QN_POINT_FORM_E (24 * QN_U)
 #define QN_POINT_LARGEST 0x1p+100
 #define QN_POINT_TINY 0x1p-700
+/* A point against a ball and an aligned box of wide code (wide/inside.h). y the point from the centre as stored, e = off + u weight:
+     | |y|^2 - r2 | is within QN_POINT_BALL_E (|y|^2 + r2) + e (3 sum |y_i| + 4 e) + QN_POINT_TINY of the truth,
+   and the distance to a face is within QN_POINT_BOX_SLACK e + QN_POINT_TINY of it where it exceeds that. */
+#define QN_POINT_BALL_E (10 * QN_U)
+#define QN_POINT_BOX_SLACK (1 + 0x1p-10)
 
 #endif

@@ -75,7 +75,7 @@ void cli_say_load_stats(const cli_loaded *loaded) {
 /* The counters by name, for printing and for summing. */
 #define COUNTERS(each) \
   each(rays) each(points) each(nodes) each(leaves) each(filter_sure) each(exact_signs) each(exact_orders) each(exact_rays) \
-    each(exact_roundings) each(exact_forms)
+    each(exact_points) each(exact_roundings) each(exact_forms)
 
 void cli_say_work_stats(const quoin_stats *stats) {
 #define SAY(counter) fprintf(stderr, #counter " %" PRIu64 "\n", stats->counter);

@@ -38,6 +38,7 @@ void quoin_work_free(quoin_work *work) {
   qn_free(mem, work->inside, work->inside_capacity * sizeof *work->inside);
   qn_free(mem, work->boundary, work->boundary_capacity * sizeof *work->boundary);
   qn_free(mem, work->contacts, work->contact_capacity * sizeof *work->contacts);
+  qn_free_line(mem, work->point_walk, sizeof *work->point_walk);
   qn_query_locals_free(work);
   qn_sheaf_free(work);
   qn_free(mem, work, sizeof *work);
@@ -45,7 +46,7 @@ void quoin_work_free(quoin_work *work) {
 
 void quoin_work_stats(const quoin_work *work, quoin_stats *out) {
   const qn_counts *c = qn_scratch_counts(work->scratch);
-  *out = (quoin_stats){.rays = c->rays, .points = c->points, .nodes = c->nodes, .leaves = c->leaves,
+  *out = (quoin_stats){.rays = c->rays, .points = c->points, .exact_points = c->exact_points, .nodes = c->nodes, .leaves = c->leaves,
                        .filter_sure = c->filter_sure, .exact_signs = c->exact_signs, .exact_orders = c->exact_orders,
                        .exact_rays = c->exact_rays, .exact_roundings = c->exact_roundings, .exact_forms = c->exact_forms};
 }

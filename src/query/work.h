@@ -3,7 +3,7 @@
 #define QN_QUERY_WORK_H
 
 #include "ray/around.h"
-#include "wide/packet.h"
+#include "wide/points.h"
 
 enum { QN_LOCALS = 64 }; /* a power of two */
 
@@ -34,6 +34,8 @@ struct quoin_work {
   qn_near_leaf *near;        size_t near_count, near_capacity;
   uint32_t *near_halves;     size_t near_half_count, near_half_capacity;
   quoin_status status;    /* QUOIN_E_MEMORY when an array could not grow */
+
+  qn_point_walk *point_walk; /* of batches; made when first needed */
 
   /* A ray's answer. */
   quoin_interval *inside;    size_t inside_capacity;

@@ -25,7 +25,7 @@ typedef struct qn_stop {
 typedef struct qn_stretch { qn_stop enter, leave; } qn_stretch;
 
 typedef struct qn_counts { /* see quoin_stats */
-  uint64_t rays, points, packets, nodes, leaves, filter_sure, exact_signs, exact_orders, exact_rays, exact_roundings, exact_forms;
+  uint64_t rays, points, packets, nodes, leaves, filter_sure, exact_signs, exact_orders, exact_rays, exact_points, exact_roundings, exact_forms;
 } qn_counts;
 
 /* One thread's scratch for one scene. */

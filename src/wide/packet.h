@@ -78,6 +78,11 @@ typedef struct qn_packet_spans {
 
 /* Fills spans; live lanes must have from < to or are not solved. */
 typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
+struct qn_point_walk;
+struct qn_wide_point;
+/* The sides of points, as far as doubles certify them: wide/points.h. */
+typedef void (*qn_points_fn)(const struct quoin_scene *scene, struct qn_point_walk *walk, size_t n, const struct qn_wide_point *points, uint8_t *verdict,
+                             qn_wide_counts *counts);
 
 typedef struct qn_wide {
   const char *name;
@@ -86,6 +91,7 @@ typedef struct qn_wide {
   qn_round_fn round;
   qn_spans_fn spans, spans_few; /* of all lanes; of the first QN_FEW */
   unsigned width;               /* lanes of a group in qn_packet_spans */
+  qn_points_fn points; /* wide/points.h */
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

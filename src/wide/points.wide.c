@@ -1,0 +1,292 @@
+/* The points' body: where each of a batch of points lies. Compiled once for each instruction set.
+
+   Many questions "is this point in that union" walk the hierarchies together. A walk keeps entries (question, node) on a stack and takes them
+   off in runs: whatever a run's nodes give, children and terms, is appended without a branch, so that neither a mispredicted branch nor a
+   memory access holds up the next entry. Points need not lie together for that. A question whose answer is "surely in" asks no more.
+
+   Kleene's logic holds throughout: a union is the largest of its terms' verdicts, a meet the least, a complement the mirror image. What is
+   sure stays sure whatever the exact answer to what is not. A term's questions to the unions that it is met with, or that are taken away, are
+   walked together as well, one level of nesting at a time (at most QN_NORMAL_DEPTH). */
+#include "wide/points.h"
+
+#include "wide/inside.h"
+#include "wide/vec.h"
+
+#include <string.h>
+
+enum {
+  RUN = 32,                 /* entries taken at once */
+  PAIRS = 8 * RUN /* QN_BVH_WIDE a node: questions and terms that a run gives, at most */
+};
+_Static_assert((int)PAIRS <= (int)QN_POINTS && (int)PAIRS == (int)QN_BVH_WIDE * (int)RUN, "a run's terms can all be asked about at once");
+
+typedef struct walk {
+  const struct quoin_scene *scene;
+  const qn_wide_point *points;
+  qn_point_walk *room;
+  size_t top; /* entries on the stack */
+  qn_wide_counts counts;
+} walk;
+
+/* n questions: is point[i] in the union un[i]? */
+typedef struct questions { size_t n; uint32_t point[QN_POINTS], un[QN_POINTS]; uint8_t verdict[QN_POINTS]; } questions;
+
+/* --- a node's children that may hold a point -------------------------------------------------------------------------- */
+
+#if defined(QN_ISA_AVX512)
+QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
+  __mmask8 m = _mm256_cmp_ps_mask(_mm256_load_ps(n->min[0]), _mm256_set1_ps(box[3]), _CMP_LE_OQ);
+  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->max[0]), _mm256_set1_ps(box[0]), _CMP_GE_OQ);
+  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->min[1]), _mm256_set1_ps(box[4]), _CMP_LE_OQ);
+  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->max[1]), _mm256_set1_ps(box[1]), _CMP_GE_OQ);
+  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->min[2]), _mm256_set1_ps(box[5]), _CMP_LE_OQ);
+  return _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->max[2]), _mm256_set1_ps(box[2]), _CMP_GE_OQ);
+}
+#elif defined(QN_ISA_AVX2)
+QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
+  __m256 m[3];
+  for (int i = 0; i < 3; i++) {
+    m[i] = _mm256_and_ps(_mm256_cmp_ps(_mm256_load_ps(n->min[i]), _mm256_set1_ps(box[3 + i]), _CMP_LE_OQ),
+                         _mm256_cmp_ps(_mm256_load_ps(n->max[i]), _mm256_set1_ps(box[i]), _CMP_GE_OQ));
+  }
+  return (unsigned)_mm256_movemask_ps(_mm256_and_ps(_mm256_and_ps(m[0], m[1]), m[2]));
+}
+#else
+QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
+  unsigned m = 0xff;
+  for (int i = 0; i < 3; i++) {
+    m &= fle(fload(n->min[i]), fset(box[3 + i])) & fle(fset(box[i]), fload(n->max[i]));
+  }
+  return m;
+}
+#endif
+
+/* Appends the child numbers of the slots in m, and `query` as often, at place `at` of two arrays with eight entries of room. */
+#if defined(QN_ISA_AVX512)
+QN_INLINE void append(const uint32_t child[8], unsigned m, uint32_t query, uint32_t *queries, uint32_t *numbers, size_t at) {
+  __m256i packed = _mm256_maskz_compress_epi32((__mmask8)m, _mm256_load_si256((const void *)child));
+  _mm256_storeu_si256((void *)(numbers + at), packed);
+  _mm256_storeu_si256((void *)(queries + at), _mm256_set1_epi32((int)query));
+}
+#elif defined(QN_ISA_AVX2)
+/* By mask: the numbers of its set bits from the lowest up, four bits each. */
+static const uint32_t PACK[256] = {
+  0x0u, 0x0u, 0x1u, 0x10u, 0x2u, 0x20u, 0x21u, 0x210u, 0x3u, 0x30u, 0x31u, 0x310u, 0x32u, 0x320u, 0x321u, 0x3210u, 0x4u, 0x40u,
+  0x41u, 0x410u, 0x42u, 0x420u, 0x421u, 0x4210u, 0x43u, 0x430u, 0x431u, 0x4310u, 0x432u, 0x4320u, 0x4321u, 0x43210u, 0x5u,
+  0x50u, 0x51u, 0x510u, 0x52u, 0x520u, 0x521u, 0x5210u, 0x53u, 0x530u, 0x531u, 0x5310u, 0x532u, 0x5320u, 0x5321u, 0x53210u,
+  0x54u, 0x540u, 0x541u, 0x5410u, 0x542u, 0x5420u, 0x5421u, 0x54210u, 0x543u, 0x5430u, 0x5431u, 0x54310u, 0x5432u, 0x54320u,
+  0x54321u, 0x543210u, 0x6u, 0x60u, 0x61u, 0x610u, 0x62u, 0x620u, 0x621u, 0x6210u, 0x63u, 0x630u, 0x631u, 0x6310u, 0x632u,
+  0x6320u, 0x6321u, 0x63210u, 0x64u, 0x640u, 0x641u, 0x6410u, 0x642u, 0x6420u, 0x6421u, 0x64210u, 0x643u, 0x6430u, 0x6431u,
+  0x64310u, 0x6432u, 0x64320u, 0x64321u, 0x643210u, 0x65u, 0x650u, 0x651u, 0x6510u, 0x652u, 0x6520u, 0x6521u, 0x65210u, 0x653u,
+  0x6530u, 0x6531u, 0x65310u, 0x6532u, 0x65320u, 0x65321u, 0x653210u, 0x654u, 0x6540u, 0x6541u, 0x65410u, 0x6542u, 0x65420u,
+  0x65421u, 0x654210u, 0x6543u, 0x65430u, 0x65431u, 0x654310u, 0x65432u, 0x654320u, 0x654321u, 0x6543210u, 0x7u, 0x70u, 0x71u,
+  0x710u, 0x72u, 0x720u, 0x721u, 0x7210u, 0x73u, 0x730u, 0x731u, 0x7310u, 0x732u, 0x7320u, 0x7321u, 0x73210u, 0x74u, 0x740u,
+  0x741u, 0x7410u, 0x742u, 0x7420u, 0x7421u, 0x74210u, 0x743u, 0x7430u, 0x7431u, 0x74310u, 0x7432u, 0x74320u, 0x74321u,
+  0x743210u, 0x75u, 0x750u, 0x751u, 0x7510u, 0x752u, 0x7520u, 0x7521u, 0x75210u, 0x753u, 0x7530u, 0x7531u, 0x75310u, 0x7532u,
+  0x75320u, 0x75321u, 0x753210u, 0x754u, 0x7540u, 0x7541u, 0x75410u, 0x7542u, 0x75420u, 0x75421u, 0x754210u, 0x7543u, 0x75430u,
+  0x75431u, 0x754310u, 0x75432u, 0x754320u, 0x754321u, 0x7543210u, 0x76u, 0x760u, 0x761u, 0x7610u, 0x762u, 0x7620u, 0x7621u,
+  0x76210u, 0x763u, 0x7630u, 0x7631u, 0x76310u, 0x7632u, 0x76320u, 0x76321u, 0x763210u, 0x764u, 0x7640u, 0x7641u, 0x76410u,
+  0x7642u, 0x76420u, 0x76421u, 0x764210u, 0x7643u, 0x76430u, 0x76431u, 0x764310u, 0x76432u, 0x764320u, 0x764321u, 0x7643210u,
+  0x765u, 0x7650u, 0x7651u, 0x76510u, 0x7652u, 0x76520u, 0x76521u, 0x765210u, 0x7653u, 0x76530u, 0x76531u, 0x765310u, 0x76532u,
+  0x765320u, 0x765321u, 0x7653210u, 0x7654u, 0x76540u, 0x76541u, 0x765410u, 0x76542u, 0x765420u, 0x765421u, 0x7654210u,
+  0x76543u, 0x765430u, 0x765431u, 0x7654310u, 0x765432u, 0x7654320u, 0x7654321u, 0x76543210u};
+QN_INLINE void append(const uint32_t child[8], unsigned m, uint32_t query, uint32_t *queries, uint32_t *numbers, size_t at) {
+  __m256i order = _mm256_srlv_epi32(_mm256_set1_epi32((int)PACK[m]), _mm256_set_epi32(28, 24, 20, 16, 12, 8, 4, 0));
+  _mm256_storeu_si256((void *)(numbers + at), _mm256_permutevar8x32_epi32(_mm256_load_si256((const void *)child), order));
+  _mm256_storeu_si256((void *)(queries + at), _mm256_set1_epi32((int)query));
+}
+#else
+QN_INLINE void append(const uint32_t child[8], unsigned m, uint32_t query, uint32_t *queries, uint32_t *numbers, size_t at) {
+  for (; m; m &= m - 1, at++) {
+    numbers[at] = child[qn_trailing_zeros(m)];
+    queries[at] = query;
+  }
+}
+#endif
+
+/* The slots whose children are terms. */
+QN_INLINE unsigned terms_among(const uint32_t child[8]) {
+#if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
+  return (unsigned)_mm256_movemask_ps(_mm256_load_ps((const float *)(const void *)child));
+#else
+  return (unsigned)_mm_movemask_ps(_mm_load_ps((const float *)(const void *)child)) |
+         (unsigned)_mm_movemask_ps(_mm_load_ps((const float *)(const void *)(child + 4))) << 4;
+#endif
+}
+
+/* --- terms ------------------------------------------------------------------------------------------------------------ */
+
+static void ask(walk *w, questions *q);
+
+/* A term whose leaves leave its verdict open or in, and which has lists. */
+typedef struct open_term { uint32_t query, term; uint8_t verdict; } open_term;
+
+/* The lists of some terms, all terms' first unions together, then all second ones, as long as their verdicts can still change an answer. */
+static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t count) {
+  const qn_normal *normal = &w->scene->normal;
+  questions below;
+  uint32_t of[QN_POINTS];
+  for (uint32_t i = 0; count; i++) {
+    size_t left = 0;
+    below.n = 0;
+    for (size_t k = 0; k < count; k++) {
+      const qn_nterm *t = &normal->terms[open[k].term];
+      uint8_t *answer = &q->verdict[open[k].query];
+      if (open[k].verdict <= *answer) {
+        continue;
+      }
+      if (i == t->minus + t->plus) {
+        *answer = open[k].verdict;
+        continue;
+      }
+      open[left] = open[k];
+      of[below.n] = (uint32_t)left++;
+      below.point[below.n] = q->point[open[k].query];
+      below.un[below.n++] = normal->lists[i < t->minus ? t->minus0 + i : t->plus0 + (i - t->minus)];
+    }
+    count = left;
+    if (count) {
+      ask(w, &below);
+    }
+    for (size_t k = 0; k < below.n; k++) {
+      open_term *o = &open[of[k]];
+      unsigned v = i < normal->terms[o->term].minus ? QN_SURELY_IN - below.verdict[k] : below.verdict[k];
+      o->verdict = (uint8_t)(v < o->verdict ? v : o->verdict);
+    }
+  }
+}
+
+/* Answers to (question, term) pairs go into the questions' verdicts. */
+static void settle_pairs(walk *w, questions *q, size_t count, const uint32_t *query, const uint32_t *term) {
+  const struct quoin_scene *scene = w->scene;
+  open_term open[PAIRS];
+  size_t opened = 0;
+  for (size_t k = 0; k < count; k++) {
+    uint8_t *answer = &q->verdict[query[k]];
+    const qn_nterm *t = &scene->normal.terms[term[k] & ~QN_BVH_LEAF];
+    const qn_wide_point *p = &w->points[q->point[query[k]]];
+    unsigned all = QN_SURELY_IN;
+    for (uint32_t i = 0; i < t->leaves && all > *answer; i++) {
+      uint32_t leaf = scene->normal.leaves[t->leaf0 + i];
+      unsigned one = in_piece(scene, (const qn_piece_head *)(const void *)((const char *)scene->lines + (size_t)scene->line_of[leaf] * 64), p);
+      all = one < all ? one : all;
+      w->counts.leaves++;
+    }
+    if (all <= *answer) {
+      continue;
+    }
+    if (t->minus + t->plus) {
+      open[opened++] = (open_term){query[k], term[k] & ~QN_BVH_LEAF, (uint8_t)all};
+    } else {
+      *answer = (uint8_t)all;
+    }
+  }
+  if (opened) {
+    ask_lists(w, q, open, opened);
+  }
+}
+
+/* --- the walk --------------------------------------------------------------------------------------------------------- */
+
+/* Terms that have no place in a hierarchy. */
+static QN_NOINLINE void ask_wide(walk *w, questions *q) {
+  uint32_t query[PAIRS], term[PAIRS];
+  size_t count = 0;
+  for (size_t i = 0; i < q->n; i++) {
+    const qn_union *u = &w->scene->normal.unions[q->un[i]];
+    for (uint32_t k = 0; k < u->wide && q->verdict[i] != QN_SURELY_IN; k++) {
+      query[count] = (uint32_t)i, term[count++] = u->wide0 + k;
+      if (count == PAIRS) {
+        settle_pairs(w, q, count, query, term);
+        count = 0;
+      }
+    }
+  }
+  settle_pairs(w, q, count, query, term);
+}
+
+/* Fills the verdicts. Runs of entries at the top of the stack are taken until it is as low as before. */
+static void ask(walk *w, questions *q) {
+  const qn_normal *normal = &w->scene->normal;
+  qn_point_walk *room = w->room;
+  size_t bottom = w->top, top = bottom, any_wide = 0;
+  if (bottom + q->n + PAIRS > QN_POINT_ROOM) {
+    memset(q->verdict, QN_NOT_SURE, q->n);
+    return;
+  }
+  for (size_t i = 0; i < q->n; i++) {
+    const qn_union *u = &normal->unions[q->un[i]];
+    q->verdict[i] = QN_SURELY_OUT;
+    any_wide |= u->wide;
+    if (u->root != QN_NO_ROOT) {
+      room->query[top] = (uint32_t)i, room->node[top++] = u->root;
+    }
+  }
+  if (any_wide) {
+    w->top = top;
+    ask_wide(w, q);
+  }
+  while (top > bottom) {
+    uint32_t query[RUN], node[RUN], pair_query[PAIRS + QN_BVH_WIDE], pair_term[PAIRS + QN_BVH_WIDE];
+    size_t run = top - bottom < RUN ? top - bottom : RUN, pairs = 0;
+    top -= run;
+    if (top + PAIRS + QN_BVH_WIDE > QN_POINT_ROOM) { /* who has no room is not sure, unless sure already */
+      for (size_t i = 0; i < q->n; i++) {
+        q->verdict[i] = q->verdict[i] == QN_SURELY_IN ? QN_SURELY_IN : QN_NOT_SURE;
+      }
+      break;
+    }
+    memcpy(query, room->query + top, sizeof query); /* a run's length, whatever is in it */
+    memcpy(node, room->node + top, sizeof node);
+    for (size_t i = 0; i < run; i++) {
+      if (q->verdict[query[i]] == QN_SURELY_IN) {
+        continue;
+      }
+      const qn_bvh_node *n = &normal->nodes[node[i]];
+      w->counts.nodes++;
+      unsigned m = children_at(n, room->box[q->point[query[i]]]), terms = m & terms_among(n->child);
+      m ^= terms;
+      append(n->child, m, query[i], room->query, room->node, top);
+      top += (size_t)__builtin_popcount(m);
+      append(n->child, terms, query[i], pair_query, pair_term, pairs);
+      pairs += (size_t)__builtin_popcount(terms);
+    }
+    if (pairs) {
+      w->top = top;
+      settle_pairs(w, q, pairs, pair_query, pair_term);
+    }
+  }
+  w->top = bottom;
+}
+
+/* --- a batch ---------------------------------------------------------------------------------------------------------- */
+
+/* A float not above and one not below v: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
+QN_INLINE float below(double v) {
+  float f = (float)v;
+  return f - (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
+}
+QN_INLINE float above(double v) {
+  float f = (float)v;
+  return f + (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
+}
+
+void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const qn_wide_point *points, uint8_t *verdict, qn_wide_counts *counts);
+void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const qn_wide_point *points, uint8_t *verdict, qn_wide_counts *counts) {
+  walk w = {.scene = scene, .points = points, .room = room};
+  questions q;
+  q.n = n;
+  for (size_t i = 0; i < n; i++) {
+    double e = 2 * QN_U * points[i].weight;
+    for (int k = 0; k < 3; k++) {
+      room->box[i][k] = below(points[i].x[k] - e), room->box[i][3 + k] = above(points[i].x[k] + e);
+    }
+    q.point[i] = (uint32_t)i;
+    q.un[i] = scene->normal.root;
+  }
+  ask(&w, &q);
+  for (size_t i = 0; i < n; i++) {
+    verdict[i] = scene->normal.complement ? (uint8_t)(QN_SURELY_IN - q.verdict[i]) : q.verdict[i];
+  }
+  counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
+}
