@@ -12,6 +12,7 @@
 #define QN_NOINLINE __attribute__((noinline))
 #define QN_INLINE static inline __attribute__((always_inline))
 #define QN_UNUSED __attribute__((unused))
+#define QN_FETCH(p) __builtin_prefetch(p)
 #else
 #define QN_PRINTF(fmt, args)
 #define QN_NODISCARD
@@ -20,6 +21,7 @@
 #define QN_NOINLINE
 #define QN_INLINE static inline
 #define QN_UNUSED
+#define QN_FETCH(p) ((void)(p))
 #endif
 
 /* 128-bit integers: every supported compiler has them on its 64-bit machines. */

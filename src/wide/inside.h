@@ -63,7 +63,8 @@ QN_INLINE unsigned in_quadric(const double row[3][4], const double s[3], double 
       continue;
     }
     x = row_value(row[i], f, &omega);
-    most = fmax(most, fmax(omega, fabs(s[i])));
+    most = omega > most ? omega : most;
+    most = fabs(s[i]) > most ? fabs(s[i]) : most;
     q += s[i] * (x * x);
     size += fabs(s[i]) * (omega * (fabs(x) + QN_POINT_MAP_E * omega));
   }

@@ -156,19 +156,45 @@ static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t
   }
 }
 
-/* Answers to (question, term) pairs go into the questions' verdicts. */
+QN_INLINE const qn_piece_head *piece_at(const struct quoin_scene *scene, uint32_t leaf) {
+  return (const qn_piece_head *)(const void *)((const char *)scene->lines + (size_t)scene->line_of[leaf] * 64);
+}
+
+/* Asks for a piece's other cache lines. */
+QN_INLINE void fetch_piece(const qn_piece_head *head) {
+  const char *line = (const char *)head;
+  if (head->kind == QN_PIECE_ROUND || head->kind == QN_PIECE_BOX) {
+    QN_FETCH(line + 64), QN_FETCH(line + 128), QN_FETCH(line + 192);
+  }
+}
+
+/* Answers to (question, term) pairs go into the questions' verdicts. Each stage asks memory for what the next one reads, for all pairs. */
 static void settle_pairs(walk *w, questions *q, size_t count, const uint32_t *query, const uint32_t *term) {
   const struct quoin_scene *scene = w->scene;
+  const qn_normal *normal = &scene->normal;
+  const qn_piece_head *first[PAIRS];
   open_term open[PAIRS];
   size_t opened = 0;
   for (size_t k = 0; k < count; k++) {
+    QN_FETCH(&normal->terms[term[k] & ~QN_BVH_LEAF]);
+  }
+  for (size_t k = 0; k < count; k++) {
+    const qn_nterm *t = &normal->terms[term[k] & ~QN_BVH_LEAF];
+    first[k] = t->leaves ? piece_at(scene, normal->leaves[t->leaf0]) : NULL;
+    QN_FETCH(first[k]);
+  }
+  for (size_t k = 0; k < count; k++) {
+    if (first[k]) {
+      fetch_piece(first[k]);
+    }
+  }
+  for (size_t k = 0; k < count; k++) {
     uint8_t *answer = &q->verdict[query[k]];
-    const qn_nterm *t = &scene->normal.terms[term[k] & ~QN_BVH_LEAF];
+    const qn_nterm *t = &normal->terms[term[k] & ~QN_BVH_LEAF];
     const qn_wide_point *p = &w->points[q->point[query[k]]];
     unsigned all = QN_SURELY_IN;
     for (uint32_t i = 0; i < t->leaves && all > *answer; i++) {
-      uint32_t leaf = scene->normal.leaves[t->leaf0 + i];
-      unsigned one = in_piece(scene, (const qn_piece_head *)(const void *)((const char *)scene->lines + (size_t)scene->line_of[leaf] * 64), p);
+      unsigned one = in_piece(scene, i ? piece_at(scene, normal->leaves[t->leaf0 + i]) : first[k], p);
       all = one < all ? one : all;
       w->counts.leaves++;
     }
@@ -239,11 +265,14 @@ static void ask(walk *w, questions *q) {
     memcpy(query, room->query + top, sizeof query); /* a run's length, whatever is in it */
     memcpy(node, room->node + top, sizeof node);
     for (size_t i = 0; i < run; i++) {
+      const char *n = (const char *)&normal->nodes[node[i]];
+      QN_FETCH(n), QN_FETCH(n + 64), QN_FETCH(n + 128), QN_FETCH(n + 192);
+    }
+    for (size_t i = 0; i < run; i++) {
       if (q->verdict[query[i]] == QN_SURELY_IN) {
         continue;
       }
       const qn_bvh_node *n = &normal->nodes[node[i]];
-      w->counts.nodes++;
       unsigned m = children_at(n, room->box[q->point[query[i]]]), terms = m & terms_among(n->child);
       m ^= terms;
       append(n->child, m, query[i], room->query, room->node, top);
@@ -251,6 +280,7 @@ static void ask(walk *w, questions *q) {
       append(n->child, terms, query[i], pair_query, pair_term, pairs);
       pairs += (size_t)__builtin_popcount(terms);
     }
+    w->counts.nodes += run;
     if (pairs) {
       w->top = top;
       settle_pairs(w, q, pairs, pair_query, pair_term);
