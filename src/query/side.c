@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* One point's side, exactly. */
-static quoin_status side_of(quoin_work *work, qn_query_point *point, quoin_side *out) {
+quoin_status qn_query_side(quoin_work *work, qn_query_point *point, quoin_side *out) {
   qn_scratch_counts(work->scratch)->exact_points++;
   quoin_status status = qn_query_near(work, point, 0);
   if (status != QUOIN_OK) {
@@ -78,7 +77,7 @@ quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_
         qn_query_point p;
         qn_query_begin(work);
         status = qn_query_point_doubles(work, points + 3 * (at + i), &p);
-        status = status == QUOIN_OK ? side_of(work, &p, &out[at + i]) : status;
+        status = status == QUOIN_OK ? qn_query_side(work, &p, &out[at + i]) : status;
       }
     }
     if (status == QUOIN_OK && b.n < QN_POINTS && at + b.n < n) {
@@ -116,7 +115,7 @@ quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, 
         qn_query_point p;
         qn_query_begin(work);
         status = qn_query_point_text(work, texts + 3 * i, &p);
-        status = status == QUOIN_OK ? side_of(work, &p, &sides[i]) : status;
+        status = status == QUOIN_OK ? qn_query_side(work, &p, &sides[i]) : status;
       }
       if (status != QUOIN_OK) {
         return status;

@@ -68,6 +68,9 @@ quoin_status qn_query_number(quoin_work *work, const char *text, qn_num *out);
    in the scene's answer. */
 quoin_status qn_query_near(quoin_work *work, qn_query_point *point, int all);
 
+/* The side of one point, exactly: what wide code leaves. After qn_query_begin and the point's making. */
+quoin_status qn_query_side(quoin_work *work, qn_query_point *point, quoin_side *out);
+
 /* The leaf's coordinates; null when memory is refused. */
 const qn_local *qn_query_local(quoin_work *work, uint32_t leaf);
 void qn_query_locals_free(quoin_work *work);
