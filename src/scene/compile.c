@@ -78,7 +78,7 @@ static size_t bytes_of(const quoin_scene *s) {
   size_t hierarchy = s->bvh.node_count * sizeof *s->bvh.nodes + s->bvh.item_count * sizeof *s->bvh.items;
   return sizeof *s + s->leaf_count * (sizeof *s->leaves + sizeof *s->part_names + sizeof *s->line_of) + s->half_count * sizeof *s->halves +
          s->plane_count * sizeof *s->planes + s->quadric_count * sizeof *s->quadrics + s->surface_count * sizeof *s->surfaces +
-         s->program.gate_count * sizeof *s->program.gates + hierarchy + s->unbounded_count * sizeof *s->unbounded +
+         s->program.gate_count * sizeof *s->program.gates + qn_paths_bytes(s->program.paths) + hierarchy + s->unbounded_count * sizeof *s->unbounded +
          s->material_count * sizeof *s->materials + s->name_size + qn_normal_bytes(&s->normal) + s->line_count * 64;
 }
 

@@ -1,8 +1,7 @@
+/* A program made of terms: constants folded, gates flattened and numbered. */
 #include "scene/program.h"
 
 #include <string.h>
-
-/* --- making a program ------------------------------------------------------------------------------------------ */
 
 /* Settles constants, children before parents (they come later in prefix order). live[i]: children of gate i that are not
    constant. */
@@ -72,6 +71,21 @@ static void number(qn_program *program, qn_term *terms, size_t count, const uint
   }
 }
 
+/* Gives the program its paths where gates are nested deeply. */
+static quoin_status deepen(qn_program *program, qn_mem *mem) {
+  size_t n = program->gate_count, deepest = 0;
+  uint32_t *depth = qn_alloc(mem, n * sizeof *depth);
+  if (!depth) {
+    return QUOIN_E_MEMORY;
+  }
+  for (size_t i = 0; i < n; i++) {
+    depth[i] = i ? depth[program->gates[i].parent] + 1 : 1;
+    deepest = depth[i] > deepest ? depth[i] : deepest;
+  }
+  qn_free(mem, depth, n * sizeof *depth);
+  return deepest > QN_PROGRAM_DEEP ? qn_paths_build(program, mem) : QUOIN_OK;
+}
+
 quoin_status qn_program_build(qn_program *program, qn_mem *mem, qn_term *terms, size_t count) {
   *program = (qn_program){0};
   if (count >= UINT32_MAX / 2) {
@@ -111,64 +125,15 @@ quoin_status qn_program_build(qn_program *program, qn_mem *mem, qn_term *terms, 
   }
   qn_free(mem, live, count * sizeof *live);
   qn_free(mem, place, count * sizeof *place);
+  status = status == QUOIN_OK ? deepen(program, mem) : status;
+  if (status != QUOIN_OK) {
+    qn_program_free(program, mem);
+  }
   return status;
 }
 
 void qn_program_free(qn_program *program, qn_mem *mem) {
+  qn_paths_free(program->paths, mem);
   qn_free(mem, program->gates, program->gate_count * sizeof *program->gates);
   *program = (qn_program){0};
-}
-
-/* --- running it ------------------------------------------------------------------------------------------------ */
-
-int qn_eval_init(qn_eval *eval, const qn_program *program, qn_mem *mem) {
-  size_t n = program->gate_count;
-  *eval = (qn_eval){.program = program, .capacity = n, .value = program->base};
-  eval->count = qn_alloc(mem, n * sizeof *eval->count);
-  eval->touched = qn_alloc(mem, n * sizeof *eval->touched);
-  eval->listed = qn_alloc_zeroed(mem, n);
-  if (!eval->count || !eval->touched || !eval->listed) {
-    qn_eval_free(eval, mem);
-    return 0;
-  }
-  for (size_t i = 0; i < n; i++) {
-    eval->count[i] = program->gates[i].base;
-  }
-  return 1;
-}
-
-void qn_eval_free(qn_eval *eval, qn_mem *mem) {
-  qn_free(mem, eval->count, eval->capacity * sizeof *eval->count);
-  qn_free(mem, eval->touched, eval->capacity * sizeof *eval->touched);
-  qn_free(mem, eval->listed, eval->capacity);
-  *eval = (qn_eval){0};
-}
-
-void qn_eval_reset(qn_eval *eval) {
-  for (size_t i = 0; i < eval->touched_count; i++) {
-    uint32_t g = eval->touched[i];
-    eval->count[g] = eval->program->gates[g].base;
-    eval->listed[g] = 0;
-  }
-  eval->touched_count = 0;
-  eval->value = eval->program->base;
-}
-
-int qn_eval_change(qn_eval *eval, uint32_t gate, int to_true) {
-  const qn_gate *gates = eval->program->gates;
-  int up = to_true > 0;
-  for (uint32_t g = gate;; g = gates[g].parent) {
-    if (!eval->listed[g]) {
-      eval->listed[g] = 1;
-      eval->touched[eval->touched_count++] = g;
-    }
-    uint32_t before = eval->count[g], after = up ? before + 1 : before - 1;
-    eval->count[g] = after;
-    if ((before >= gates[g].need) == (after >= gates[g].need)) {
-      return eval->value;
-    }
-    if (gates[g].parent == QN_NO_GATE) {
-      return eval->value = up;
-    }
-  }
 }

@@ -73,11 +73,12 @@ static void check_shape(const qn_program *p) {
   }
 }
 
-static void random_trees(void **unused) {
-  (void)unused;
+/* with_paths: whatever the depth; else without them. */
+static void random_trees_one_way(int with_paths) {
   qn_mem mem;
   qn_mem_init(&mem, NULL);
   size_t kept = 0, dropped = 0, constant = 0, deep = 0;
+  state = 12345;
   for (int round = 0; round < 3000; round++) {
     qn_term terms[MOST], copy[MOST];
     size_t n = random_tree(terms, 1 + rnd(MOST - 1), rnd(3) == 0);
@@ -87,6 +88,11 @@ static void random_trees(void **unused) {
     qn_program p;
     assert_int_equal(qn_program_build(&p, &mem, terms, n), QUOIN_OK);
     check_shape(&p);
+    qn_paths_free(p.paths, &mem);
+    p.paths = NULL;
+    if (with_paths) {
+      assert_int_equal(qn_paths_build(&p, &mem), QUOIN_OK);
+    }
     constant += p.gates[0].kids == 0;
     deep += p.gate_count > 5;
     qn_eval eval;
@@ -118,6 +124,96 @@ static void random_trees(void **unused) {
     qn_program_free(&p, &mem);
   }
   assert_true(kept > 10000 && dropped > 1000 && constant > 50 && deep > 500); /* each kind did occur */
+  assert_int_equal(mem.used, 0);
+}
+
+static void random_trees(void **unused) {
+  (void)unused;
+  random_trees_one_way(0);
+}
+static void random_trees_by_paths(void **unused) {
+  (void)unused;
+  random_trees_one_way(1);
+}
+
+/* Chains with twigs, long enough for stops in words of words of words; paths against the walk. */
+static void long_paths(void **unused) {
+  (void)unused;
+  qn_mem mem;
+  qn_mem_init(&mem, NULL);
+  enum { GATES = 300000 };
+  size_t n = 0;
+  qn_term *terms = qn_alloc(&mem, 4 * GATES * sizeof *terms);
+  assert_non_null(terms);
+  uint32_t up = QN_NO_GATE;
+  for (uint32_t i = 0; i < GATES; i++) { /* each gate: itself, a leaf or two, now and then a twig of some gates */
+    uint32_t gate = (uint32_t)n;
+    terms[n++] = (qn_term){.parent = up, .kind = i % 2 ? QN_TERM_AND : QN_TERM_OR};
+    uint32_t wanted = i % 2; /* the value of what hangs beside the chain with which this gate passes */
+    terms[n++] = (qn_term){.parent = gate, .kind = QN_TERM_LEAF, .leaf = wanted, .negated = (uint8_t)(rnd(8) ? wanted : rnd(2))};
+    up = gate;
+    if (rnd(1000) == 0) {
+      uint32_t twig = gate;
+      for (uint32_t k = i + 1; k < i + 1 + rnd(100); k++) {
+        terms[n++] = (qn_term){.parent = twig, .kind = k % 2 ? QN_TERM_AND : QN_TERM_OR};
+        twig = (uint32_t)n - 1;
+        terms[n++] = (qn_term){.parent = twig, .kind = QN_TERM_LEAF, .leaf = wanted, .negated = (uint8_t)rnd(2)};
+        terms[n++] = (qn_term){.parent = twig, .kind = QN_TERM_LEAF, .leaf = wanted, .negated = (uint8_t)rnd(2)};
+      }
+    }
+  }
+  terms[n++] = (qn_term){.parent = up, .kind = QN_TERM_LEAF};
+  qn_program p;
+  assert_int_equal(qn_program_build(&p, &mem, terms, n), QUOIN_OK);
+  assert_non_null(p.paths);
+  assert_true(p.paths->words > 300000 / 64 + 300000 / 4096 + 1);
+  qn_program walked = p;
+  walked.paths = NULL;
+  qn_eval a, b;
+  assert_true(qn_eval_init(&a, &p, &mem));
+  assert_true(qn_eval_init(&b, &walked, &mem));
+  uint8_t *now = qn_alloc_zeroed(&mem, n);
+  assert_non_null(now);
+  size_t turned = 0;
+  for (int pass = 0; pass < 40; pass++) {
+    /* first what makes a gate stop is turned, deepest first, so that changes far below come to matter */
+    uint32_t reach = pass % 4 == 0 ? 0 : pass % 4 == 1 ? 20000 : pass % 4 == 2 ? 270000 : 600000;
+    for (size_t i = 0; i < reach && i < n; i++) {
+      const qn_term *t = &terms[reach < n ? reach - 1 - i : n - 1 - i];
+      if (t->kind == QN_TERM_LEAF && t->gate != QN_NO_GATE && t->negated != t->leaf) {
+        now[t - terms] = 1;
+        int up_now = t->leaf ? 1 : -1;
+        assert_int_equal(qn_eval_change(&a, t->gate, up_now), qn_eval_change(&b, t->gate, up_now));
+      }
+    }
+    for (int step = 0; step < 50; step++) {
+      size_t i = step % 2 ? rnd((uint32_t)n) : n - 1 - rnd(100);
+      const qn_term *t = &terms[i];
+      if (t->kind != QN_TERM_LEAF || t->gate == QN_NO_GATE) {
+        continue;
+      }
+      now[i] ^= 1;
+      int up_now = now[i] != t->negated ? 1 : -1, before = b.value;
+      assert_int_equal(qn_eval_change(&a, t->gate, up_now), qn_eval_change(&b, t->gate, up_now));
+      assert_int_equal(a.value, b.value);
+      turned += b.value != before;
+    }
+    qn_eval_reset(&a);
+    qn_eval_reset(&b);
+    for (size_t i = 0; i < n; i++) {
+      now[i] = 0;
+    }
+    for (size_t g = 0; g < p.gate_count; g++) { /* as at first */
+      assert_true(a.count[g] == p.paths->base[g] && a.truth[g] == p.paths->truth[g] && !a.listed[g]);
+    }
+    assert_memory_equal(a.stops, p.paths->stops, p.paths->words * sizeof *a.stops);
+  }
+  assert_true(turned > 20);
+  qn_free(&mem, now, n);
+  qn_eval_free(&a, &mem);
+  qn_eval_free(&b, &mem);
+  qn_program_free(&p, &mem);
+  qn_free(&mem, terms, 4 * GATES * sizeof *terms);
   assert_int_equal(mem.used, 0);
 }
 
@@ -170,6 +266,17 @@ static void deep_chain(void **unused) {
     assert_int_equal(qn_eval_change(&eval, terms[2 * i + 1].gate, 1), i == 1);
   }
   assert_int_equal(qn_eval_change(&eval, terms[2 * LEVELS - 1].gate, -1), 1); /* an OR above has its own leaf */
+  qn_eval_reset(&eval);
+  for (uint32_t i = 0; i < LEVELS; i++) { /* the ANDs' own leaves: now all gates pass the last leaf on, up to the root */
+    if (terms[2 * i].kind == QN_TERM_AND) {
+      (void)qn_eval_change(&eval, terms[2 * i + 1].gate, 1);
+    }
+  }
+  size_t touched = eval.touched_count;
+  for (uint32_t i = 0; i < 100000; i++) { /* each change turns 99999 gates, and is seen at one */
+    assert_int_equal(qn_eval_change(&eval, terms[2 * LEVELS - 1].gate, i % 2 ? 1 : -1), i % 2);
+  }
+  assert_int_equal(eval.touched_count, touched);
   qn_eval_free(&eval, &mem);
   qn_program_free(&p, &mem);
   qn_free(&mem, terms, 2 * LEVELS * sizeof *terms);
@@ -187,7 +294,7 @@ static void refused_memory(void **unused) {
     qn_term terms[60];
     size_t n = random_tree(terms, 60, 0);
     qn_program p;
-    if (qn_program_build(&p, &mem, terms, n) == QUOIN_OK) {
+    if (qn_program_build(&p, &mem, terms, n) == QUOIN_OK && (limit % 2 || qn_paths_build(&p, &mem) == QUOIN_OK || !(refused++, qn_program_free(&p, &mem), 1))) {
       qn_eval eval;
       if (qn_eval_init(&eval, &p, &mem)) {
         qn_eval_free(&eval, &mem);
@@ -204,7 +311,7 @@ static void refused_memory(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(random_trees), cmocka_unit_test(small_ones), cmocka_unit_test(deep_chain),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(random_trees), cmocka_unit_test(random_trees_by_paths), cmocka_unit_test(long_paths), cmocka_unit_test(small_ones), cmocka_unit_test(deep_chain),
                                      cmocka_unit_test(refused_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
