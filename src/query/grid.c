@@ -2,11 +2,66 @@
 #include "query/look.h"
 
 #include <math.h>
+#include <string.h>
+
+enum { STRIP = 16 }; /* tiles side by side whose columns are computed at once */
 
 static int finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
 
-/* What all tiles of a grid share. Returns 0 when the shared vector is not one for rays. */
-static int fill_shared(const quoin_grid *g, qn_packet *p) {
+/* (i + 0.5) / n for i from first; no further than last. */
+static void shares(double out[8], size_t first, size_t last, size_t n) {
+  double i[8];
+  for (unsigned k = 0; k < 8; k++) {
+    i[k] = (double)(first + k);
+  }
+  for (unsigned k = 0; QN_UNLIKELY(first + 7 > last) && k < 8; k++) {
+    i[k] = (double)(first + k < last ? first + k : last);
+  }
+  for (unsigned k = 0; k < 8; k++) {
+    out[k] = (i[k] + 0.5) / (double)n;
+  }
+}
+
+static void columns_of(const quoin_grid *g, size_t first, size_t last, double out[3][8]) {
+  const double *base = g->converging ? g->d : g->o;
+  double s[8];
+  shares(s, first, last, g->width);
+  for (int k = 0; k < 3; k++) {
+    for (unsigned i = 0; i < 8; i++) {
+      out[k][i] = base[k] + s[i] * g->u[k];
+    }
+  }
+}
+static void rows_of(const quoin_grid *g, size_t first, size_t last, double out[3][8]) {
+  double r[8];
+  shares(r, first, last, g->height);
+  for (int k = 0; k < 3; k++) {
+    for (unsigned i = 0; i < 8; i++) {
+      out[k][i] = r[i] * g->v[k];
+    }
+  }
+}
+
+/* Whether a part of a grid has no ray but those that a ray may be: finite, and none without a direction. *near_zero: a direction may be the zero vector. */
+static int are_rays(const quoin_grid *g, size_t x0, size_t y0, size_t x1, size_t y1, int *near_zero) {
+  double left[3][8], right[3][8], top[3][8], bottom[3][8];
+  columns_of(g, x0, x0, left), columns_of(g, x1 - 1, x1 - 1, right);
+  rows_of(g, y0, y0, top), rows_of(g, y1 - 1, y1 - 1, bottom);
+  *near_zero = g->converging;
+  for (int k = 0; k < 3; k++) { /* sums are monotone, so that the least and the largest stand in the corners */
+    const double a = left[k][0], b = right[k][0], c = top[k][0], d = bottom[k][0];
+    const double low = fmin(fmin(a + c, a + d), fmin(b + c, b + d)), high = fmax(fmax(a + c, a + d), fmax(b + c, b + d));
+    if (!isfinite(a + c) || !isfinite(a + d) || !isfinite(b + c) || !isfinite(b + d)) {
+      return 0;
+    }
+    *near_zero &= low <= 0 && high >= 0;
+  }
+  return finite3(g->o) && finite3(g->u) && finite3(g->v) && finite3(g->d) && (g->converging || g->d[0] != 0 || g->d[1] != 0 || g->d[2] != 0) &&
+         g->from <= g->to && g->from < HUGE_VAL && g->to > -HUGE_VAL;
+}
+
+/* What all tiles of a grid share. */
+static void fill_shared(const quoin_grid *g, qn_packet *p) {
   const double *same = g->converging ? g->o : g->d;
   for (unsigned lane = 0; lane < QN_LANES; lane++) {
     for (int k = 0; k < 3; k++) {
@@ -15,50 +70,61 @@ static int fill_shared(const quoin_grid *g, qn_packet *p) {
     p->from[lane] = g->from, p->to[lane] = g->to;
     p->on[lane] = QUOIN_NO_SURFACE;
   }
-  p->new_origins = p->new_directions = 1;
+  p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
   p->few = 0;
   p->tile = g->converging ? QN_TILE_DIRECTIONS : QN_TILE_ORIGINS;
-  return finite3(g->o) && finite3(g->u) && finite3(g->v) && finite3(g->d) && (g->converging || g->d[0] != 0 || g->d[1] != 0 || g->d[2] != 0);
 }
 
-/* Describes the tile at (x, y); lanes past the edges repeat the last column and row. Returns 0 when a ray is not one (a direction
-   that is zero, or numbers beyond doubles). */
-static int fill_tile(const quoin_grid *g, size_t x, size_t y, size_t x1, size_t y1, qn_packet *p) {
-  unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
-  const double *base = g->converging ? g->d : g->o;
-  double s[8], r[8];
-  for (unsigned i = 0; i < 8; i++) {
-    s[i] = ((double)(x + (i < columns ? i : columns - 1)) + 0.5) / (double)g->width;
-    r[i] = ((double)(y + (i < rows ? i : rows - 1)) + 0.5) / (double)g->height;
+/* Lanes past the edges repeat the last column and row. */
+static uint64_t lanes_within(unsigned columns, unsigned rows) {
+  uint64_t live = 0;
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    live |= (uint64_t)(qn_lane_column(lane) < columns && qn_lane_row(lane) < rows) << lane;
   }
-  int finite = 1, through_zero = g->converging;
-  for (int k = 0; k < 3; k++) {
-    for (unsigned i = 0; i < 8; i++) {
-      p->across[k][i] = base[k] + s[i] * g->u[k];
-      p->up[k][i] = r[i] * g->v[k];
+  return live;
+}
+
+static int has_zero(const qn_packet *p) {
+  int zero = 0;
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    int all = 1;
+    for (int k = 0; k < 3; k++) {
+      all &= p->across[k][qn_lane_column(lane)] + p->up[k][qn_lane_row(lane)] == 0;
     }
-    const double *a = p->across[k], *u = p->up[k];
-    const double corner[4] = {a[0] + u[0], a[7] + u[0], a[0] + u[7], a[7] + u[7]}; /* sums are monotone: the rest lies between */
-    int low = 0, high = 0;
-    for (int i = 0; i < 4; i++) {
-      finite &= isfinite(corner[i]) != 0;
-      low |= corner[i] <= 0, high |= corner[i] >= 0;
-    }
-    through_zero &= low && high;
+    zero |= all;
   }
-  p->live = columns == 8 && rows == 8 ? ~(uint64_t)0 : 0;
-  if (!p->live || through_zero) {
-    for (unsigned lane = 0; lane < QN_LANES; lane++) {
-      unsigned c = qn_lane_column(lane), w = qn_lane_row(lane);
-      double any = 0;
-      for (int k = 0; k < 3; k++) {
-        any += fabs(p->across[k][c] + p->up[k][w]);
-      }
-      p->live |= (uint64_t)(c < columns && w < rows) << lane;
-      finite &= !through_zero || any > 0;
-    }
+  return zero;
+}
+
+static quoin_spot spot_of(const qn_seen *seen) {
+  return seen->surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen->t, seen->surface, seen->leaving};
+}
+
+/* One tile into eight rows of eight spots. */
+static quoin_status look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride) {
+  qn_packet_hits hits;
+  qn_look_run(work, packet, &hits);
+  const uint64_t woven = hits.unsure | hits.tied, found = hits.found & ~woven;
+  _Alignas(64) double rounded[QN_LANES];
+  const double *t = hits.t;
+  uint64_t sure = found;
+  if (want & QUOIN_WANT_T && found) {
+    sure = work->wide->round(work->scene, packet, &hits, found, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
+    t = rounded;
   }
-  return finite;
+  work->wide->spots(&hits, found, t, out, stride);
+  quoin_status status = QUOIN_OK;
+  for (uint64_t m = found & ~sure; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    status = qn_look_round(work, packet, &hits, lane, &out[qn_lane_row(lane) * stride + qn_lane_column(lane)].t);
+  }
+  for (uint64_t m = woven; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    qn_seen seen;
+    status = qn_look_woven(work, packet, lane, want & QUOIN_WANT_T ? QN_LOOK_T : 0, &seen);
+    out[qn_lane_row(lane) * stride + qn_lane_column(lane)] = spot_of(&seen);
+  }
+  return status;
 }
 
 quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, unsigned want,
@@ -66,33 +132,41 @@ quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const q
   if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height) {
     return QUOIN_E_ARGUMENT;
   }
-  qn_packet packet;
-  if (!fill_shared(grid, &packet) || !(grid->from <= grid->to && grid->from < HUGE_VAL && grid->to > -HUGE_VAL)) {
+  if (x0 == x1 || y0 == y1) {
+    return QUOIN_OK;
+  }
+  int near_zero;
+  if (!are_rays(grid, x0, y0, x1, y1, &near_zero)) {
     return QUOIN_E_ARGUMENT;
   }
-  qn_seen seen[QN_LANES];
-  const unsigned look = want & QUOIN_WANT_T ? QN_LOOK_T : 0;
-  for (size_t y = y0; y < y1; y += 8) {
-    for (size_t x = x0; x < x1; x += 8) {
-      if (!fill_tile(grid, x, y, x1, y1, &packet)) {
-        return QUOIN_E_ARGUMENT;
-      }
-      uint64_t met;
-      quoin_status status = qn_look_packet(work, &packet, look, seen, &met);
-      if (status != QUOIN_OK) {
-        return status;
-      }
-      packet.new_origins = !grid->converging, packet.new_directions = grid->converging;
-      quoin_spot *tile = out + (y - y0) * (x1 - x0) + (x - x0);
-      const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
-      for (unsigned w = 0; w < rows; w++) {
-        for (unsigned c = 0; c < columns; c++) {
-          tile[w * (x1 - x0) + c] = (quoin_spot){.surface = QUOIN_NO_SURFACE};
+  qn_packet packet;
+  fill_shared(grid, &packet);
+  const size_t stride = x1 - x0;
+  double across[STRIP][3][8];
+  for (size_t strip = x0; strip < x1; strip += 8 * STRIP) {
+    for (size_t i = 0; i < STRIP && strip + 8 * i < x1; i++) {
+      columns_of(grid, strip + 8 * i, x1 - 1, across[i]);
+    }
+    for (size_t y = y0; y < y1; y += 8) {
+      const unsigned rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+      rows_of(grid, y, y1 - 1, packet.up);
+      for (size_t i = 0, x = strip; i < STRIP && x < x1; i++, x += 8) {
+        const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8;
+        const int whole = columns == 8 && rows == 8;
+        memcpy(packet.across, across[i], sizeof packet.across);
+        if (near_zero && has_zero(&packet)) {
+          return QUOIN_E_ARGUMENT;
         }
-      }
-      for (; met; met &= met - 1) {
-        unsigned lane = qn_trailing_zeros(met);
-        tile[qn_lane_row(lane) * (x1 - x0) + qn_lane_column(lane)] = (quoin_spot){seen[lane].t, seen[lane].surface, seen[lane].leaving};
+        packet.live = whole ? ~(uint64_t)0 : lanes_within(columns, rows);
+        quoin_spot part[QN_LANES], *tile = out + (y - y0) * stride + (x - x0);
+        quoin_status status = look_tile(work, &packet, want, whole ? tile : part, whole ? stride : 8);
+        if (status != QUOIN_OK) {
+          return status;
+        }
+        for (unsigned w = 0; !whole && w < rows; w++) {
+          memcpy(tile + w * stride, part + 8 * w, columns * sizeof *part);
+        }
+        packet.new_origins = !grid->converging, packet.new_directions = grid->converging, packet.kept_ranges = 1;
       }
     }
   }

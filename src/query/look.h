@@ -32,6 +32,11 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
 int qn_rays_together(const quoin_ray *rays, size_t n);
 /* Puts n rays into the first lanes of a packet of `lanes` lanes. */
 void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays);
+/* Answers lane by lane, for whoever has run a packet: by the woven path, and a found lane's parameter, correctly rounded. */
+quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out);
+quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t);
+/* Runs a packet's body and counts; without a normal form every lane is unsure. */
+void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits);
 
 /* The unit normal, out of the solid, at t on the ray, from the surface's own double form; zero at a singular point. */
 void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]);

@@ -13,14 +13,14 @@ static quoin_ray ray_of(const qn_packet *p, unsigned lane) {
   return ray;
 }
 
-/* One ray by the woven path. */
-static quoin_status look_woven(quoin_work *work, const quoin_ray *ray, unsigned want, qn_seen *out) {
+quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out) {
   const quoin_scene *scene = work->scene;
+  const quoin_ray ray = ray_of(packet, lane);
   *out = (qn_seen){.surface = QUOIN_NO_SURFACE};
   qn_query_begin(work);
   qn_line line;
-  qn_line_from_doubles(ray->o, ray->d, &line);
-  const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
+  qn_line_from_doubles(ray.o, ray.d, &line);
+  const qn_range range = {{.t = ray.from, .surface = QN_NO_SURFACE}, {.t = ray.to, .surface = QN_NO_SURFACE}};
   qn_woven woven;
   quoin_status status = qn_weave(scene, work->scratch, &line, &range, QN_WANT_FIRST, &woven);
   if (status != QUOIN_OK || woven.inside_count == 0) {
@@ -38,27 +38,33 @@ static quoin_status look_woven(quoin_work *work, const quoin_ray *ray, unsigned 
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-static quoin_status round_t(quoin_work *work, const quoin_ray *ray, const qn_packet_hits *hits, unsigned lane, double *t) {
+quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t) {
+  const quoin_ray ray = ray_of(packet, lane);
   qn_query_begin(work);
   qn_line line;
-  qn_line_from_doubles(ray->o, ray->d, &line);
+  qn_line_from_doubles(ray.o, ray.d, &line);
   const qn_place place = {.t = hits->t[lane], .e = hits->error[lane], .surface = hits->surface[lane], .which = (int)(hits->far_end >> lane & 1)};
   *t = qn_place_round(work->scene, work->scratch, &line, &place);
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
+void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   const quoin_scene *scene = work->scene;
-  qn_counts *counts = qn_scratch_counts(work->scratch);
-  qn_packet_hits hits;
-  hits.found = hits.tied = 0, hits.unsure = packet->live;
+  hits->found = hits->tied = 0, hits->unsure = packet->live;
   if (scene->normal.made) {
+    qn_counts *counts = qn_scratch_counts(work->scratch);
     qn_wide_counts wide = {0};
-    (packet->few ? work->wide->few : work->wide->first)(scene, packet, &hits, &wide);
+    (packet->few ? work->wide->few : work->wide->first)(scene, packet, hits, &wide);
     counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
-    counts->rays += (uint64_t)__builtin_popcountll(packet->live & ~hits.unsure);
-    counts->exact_rays += (uint64_t)__builtin_popcountll(hits.unsure);
+    const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
+    counts->rays += lanes - unsure;
+    counts->exact_rays += unsure;
   }
+}
+
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
+  qn_packet_hits hits;
+  qn_look_run(work, packet, &hits);
   uint64_t woven = hits.unsure | (want & QN_LOOK_ANY ? 0 : hits.tied);
   *met = hits.found;
   for (uint64_t m = hits.found; m; m &= m - 1) {
@@ -67,15 +73,14 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   }
   if (want & QN_LOOK_T) {
     _Alignas(64) double rounded[QN_LANES];
-    uint64_t sure = work->wide->round(scene, packet, &hits, hits.found & ~woven, rounded, &counts->exact_forms);
+    uint64_t sure = work->wide->round(work->scene, packet, &hits, hits.found & ~woven, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
     for (uint64_t m = sure; m; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
       out[lane].t = rounded[lane];
     }
     for (uint64_t m = hits.found & ~woven & ~sure; m; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
-      const quoin_ray ray = ray_of(packet, lane);
-      quoin_status status = round_t(work, &ray, &hits, lane, &out[lane].t);
+      quoin_status status = qn_look_round(work, packet, &hits, lane, &out[lane].t);
       if (status != QUOIN_OK) {
         return status;
       }
@@ -83,8 +88,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   }
   for (uint64_t m = woven; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
-    const quoin_ray ray = ray_of(packet, lane);
-    quoin_status status = look_woven(work, &ray, want, &out[lane]);
+    quoin_status status = qn_look_woven(work, packet, lane, want, &out[lane]);
     *met &= ~((uint64_t)1 << lane);
     *met |= (uint64_t)(out[lane].surface != QUOIN_NO_SURFACE) << lane;
     if (status != QUOIN_OK) {
@@ -121,7 +125,7 @@ static void fill(qn_packet *p, size_t lanes, size_t n, const quoin_ray *rays, co
   }
   p->live = n == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << n) - 1;
   p->few = lanes == QN_FEW;
-  p->new_origins = p->new_directions = 1;
+  p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
   p->tile = QN_TILE_NONE;
 }
 

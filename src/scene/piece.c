@@ -158,6 +158,7 @@ static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind k
     const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
     double scale = q->row[0][0];
     qn_piece_sphere s = {.head = {kind, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .surface = h->surface};
+    s.radius = sqrt(s.r2);
     memcpy(s.centre, l->pivot, sizeof s.centre);
     for (int i = 0; i < 3; i++) {
       double off = fabs(q->row[i][3] / scale) * QN_WIDE_SLACK;

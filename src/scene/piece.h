@@ -27,7 +27,8 @@ typedef struct qn_piece_sphere {
   double r2;        /* relative error 8u at most, the squares' shares included */
   double off;
   uint32_t surface;
-  uint32_t unused[3];
+  uint32_t unused;
+  double radius; /* sqrt(r2) */
 } qn_piece_sphere;
 
 typedef struct qn_piece_box {

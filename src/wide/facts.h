@@ -35,35 +35,53 @@ static void see_origins(qn_packet *p) {
   }
 }
 
-/* Eight lanes are four columns and two rows (packet.h); sums of what is monotone are extreme in the corners. */
-static void see_tile_origins(qn_packet *p) {
-  for (int i = 0; i < 3; i++) {
-    double x[2][2], y[4][2];
-    for (int h = 0; h < 2; h++) {
-      double a = p->across[i][4 * h], b = p->across[i][4 * h + 3];
-      x[h][0] = least(a, b), x[h][1] = most(a, b);
-    }
-    for (int h = 0; h < 4; h++) {
-      double a = p->up[i][2 * h], b = p->up[i][2 * h + 1];
-      y[h][0] = least(a, b), y[h][1] = most(a, b);
-    }
-    for (int k = 0; k < SUBS; k++) {
-      int c = k >> 1 & 1, r = (k & 1) | (k >> 1 & 2);
-      p->omin[i][k] = down(x[c][0] + y[r][0]), p->omax[i][k] = up(x[c][1] + y[r][1]);
-    }
-    p->low[i] = least(x[0][0], x[1][0]) + least(y[0][0], y[3][0]);
-    p->high[i] = most(x[0][1], x[1][1]) + most(y[0][1], y[3][1]);
+/* Floats below and above eight doubles. */
+QN_INLINE void downs(const double v[8], float out[8]) {
+  for (int k = 0; k < 8; k++) {
+    out[k] = down(v[k]);
+  }
+}
+QN_INLINE void ups(const double v[8], float out[8]) {
+  for (int k = 0; k < 8; k++) {
+    out[k] = up(v[k]);
   }
 }
 
+/* Eight lanes are four columns and two rows (packet.h); sums of what is monotone are extreme in the corners. */
+static void see_tile_origins(qn_packet *p) {
+  for (int i = 0; i < 3; i++) {
+    const double *a = p->across[i], *u = p->up[i];
+    const double x0 = least(a[0], a[3]), x1 = least(a[4], a[7]), X0 = most(a[0], a[3]), X1 = most(a[4], a[7]);
+    const double y0 = least(u[0], u[1]), y1 = least(u[2], u[3]), y2 = least(u[4], u[5]), y3 = least(u[6], u[7]);
+    const double Y0 = most(u[0], u[1]), Y1 = most(u[2], u[3]), Y2 = most(u[4], u[5]), Y3 = most(u[6], u[7]);
+    const double low[8] = {x0 + y0, x0 + y1, x1 + y0, x1 + y1, x0 + y2, x0 + y3, x1 + y2, x1 + y3};
+    const double high[8] = {X0 + Y0, X0 + Y1, X1 + Y0, X1 + Y1, X0 + Y2, X0 + Y3, X1 + Y2, X1 + Y3};
+    downs(low, p->omin[i]), ups(high, p->omax[i]);
+    p->low[i] = least(x0, x1) + least(y0, y3);
+    p->high[i] = most(X0, X1) + most(Y0, Y3);
+  }
+}
+
+/* Four lanes are two columns and two rows. */
 static void fill_tile(qn_packet *p, double (*to)[QN_LANES]) {
   for (int i = 0; i < 3; i++) {
-    for (unsigned q = 0; q < QN_LANES_NOW / 4; q++) { /* four lanes are two columns and two rows */
-      unsigned c = (q & 1) << 1 | (q >> 1 & 2) << 1, r = (q >> 1 & 1) << 1 | (q >> 2 & 2) << 1;
-      double *t = to[i] + 4 * q, a = p->across[i][c], b = p->across[i][c + 1], v = p->up[i][r], w = p->up[i][r + 1];
-      t[0] = a + v, t[1] = b + v;
-      t[2] = a + w, t[3] = b + w;
+    const double *a = p->across[i], *u = p->up[i];
+#if QN_W == 4
+    vd pairs[4], rows[4];
+    for (int k = 0; k < 4; k++) {
+      pairs[k] = vfour(a[2 * k], a[2 * k + 1], a[2 * k], a[2 * k + 1]), rows[k] = vfour(u[2 * k], u[2 * k], u[2 * k + 1], u[2 * k + 1]);
     }
+    for (unsigned q = 0; q < QN_LANES_NOW / 4; q++) {
+      vstore(to[i] + 4 * q, vadd(pairs[(q & 1) | (q >> 1 & 2)], rows[(q >> 1 & 1) | (q >> 2 & 2)]));
+    }
+#else
+    for (unsigned q = 0; q < QN_LANES_NOW / 4; q++) {
+      unsigned c = (q & 1) << 1 | (q >> 1 & 2) << 1, r = (q >> 1 & 1) << 1 | (q >> 2 & 2) << 1;
+      double *t = to[i] + 4 * q;
+      t[0] = a[c] + u[r], t[1] = a[c + 1] + u[r];
+      t[2] = a[c] + u[r + 1], t[3] = a[c + 1] + u[r + 1];
+    }
+#endif
   }
 }
 
@@ -85,6 +103,7 @@ static void see_directions(qn_packet *p) {
     extremes(p->idd + k * SUB_LANES, &low, &high);
     p->dd_min = least(p->dd_min, 1 / (QN_WIDE_SLACK * high)), p->dd_max = most(p->dd_max, QN_WIDE_SLACK / low);
   }
+  p->d_most = sqrt(p->dd_max), p->idd_most = 1 / p->dd_min, p->shy = sqrt(p->idd_most / QN_WIDE_SHY);
   for (int i = 0; i < 3; i++) {
     double dlow = INFINITY, dhigh = -INFINITY;
     int finite = 1;
@@ -96,9 +115,29 @@ static void see_directions(qn_packet *p) {
       p->imin[i][k] = down(low - fabs(low) * QN_WIDE_FLOAT), p->imax[i][k] = up(high + fabs(high) * QN_WIDE_FLOAT);
       finite &= isfinite(p->imin[i][k]) && isfinite(p->imax[i][k]);
     }
+    p->all_imin[i] = p->imin[i][0], p->all_imax[i] = p->imax[i][0];
+    for (int k = 1; k < SUBS; k++) {
+      p->all_imin[i] = p->imin[i][k] < p->all_imin[i] ? p->imin[i][k] : p->all_imin[i], p->all_imax[i] = p->imax[i][k] > p->all_imax[i] ? p->imax[i][k] : p->all_imax[i];
+    }
     p->dabs[i] = most(fabs(dlow), fabs(dhigh));
     p->axis[i] = !finite ? AXIS_MIXED : dlow > 0 ? AXIS_UP : dhigh < 0 ? AXIS_DOWN : dlow == 0 && dhigh == 0 ? AXIS_FLAT : AXIS_MIXED;
   }
+}
+
+/* The ranges as ends are compared. */
+static void see_ranges(qn_packet *p) {
+  double low = INFINITY, high = -INFINITY;
+  p->empty = 0;
+  for (int g = 0; g < QN_GROUPS; g++) {
+    vd from = vmax(vload(p->from + g * QN_W), vset(-QN_FAR)), to = vmin(vload(p->to + g * QN_W), vset(QN_FAR));
+    vstore(p->start.t + g * QN_W, from), vstore(p->stop + g * QN_W, to);
+    p->empty |= (uint64_t)(QN_ALL_BITS & ~vbits(vlt(from, to))) << (g * QN_W);
+  }
+  for (int j = 0; j < QN_LANES_NOW; j++) {
+    p->start.p[j] = payload_bits(p->on[j] | QN_STARTS_ON);
+    low = least(low, p->start.t[j]), high = most(high, p->stop[j]);
+  }
+  p->soonest = down(low), p->latest = up(high);
 }
 
 /* Returns 0 when the rays' numbers are not in the range that the bounds are for. */
@@ -119,19 +158,19 @@ static int facts(walk *w, qn_packet *p) {
   for (int i = 0; i < 3; i++) {
     f->share[i] = p->tile == QN_TILE_PAIRS ? most(fabs(p->low[i]), fabs(p->high[i])) : 0;
   }
+  if (!p->kept_ranges) {
+    see_ranges(p);
+  }
   double reach2 = 0;
   int in_range = p->dd_min >= 1 / (QN_WIDE_LARGEST * QN_WIDE_LARGEST) && p->dd_max <= QN_WIDE_LARGEST * QN_WIDE_LARGEST;
   for (int i = 0; i < 3; i++) {
-    w->all_omin[i] = INFINITY, w->all_omax[i] = -INFINITY, w->all_imin[i] = INFINITY, w->all_imax[i] = -INFINITY;
-    for (int k = 0; k < SUBS; k++) {
-      w->all_omin[i] = p->omin[i][k] < w->all_omin[i] ? p->omin[i][k] : w->all_omin[i], w->all_omax[i] = p->omax[i][k] > w->all_omax[i] ? p->omax[i][k] : w->all_omax[i];
-      w->all_imin[i] = p->imin[i][k] < w->all_imin[i] ? p->imin[i][k] : w->all_imin[i], w->all_imax[i] = p->imax[i][k] > w->all_imax[i] ? p->imax[i][k] : w->all_imax[i];
-    }
+    w->all_omin[i] = down(p->low[i]), w->all_omax[i] = up(p->high[i]);
+    w->all_imin[i] = p->all_imin[i], w->all_imax[i] = p->all_imax[i];
     double far = farthest(f, i, 0) + most(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
     reach2 += far * far;
     in_range &= farthest(f, i, 0) <= QN_WIDE_LARGEST && w->all_imin[i] >= -QN_WIDE_LARGEST && w->all_imax[i] <= QN_WIDE_LARGEST;
   }
-  f->reach = QN_WIDE_SLACK * sqrt(reach2 / p->dd_min);
+  f->reach = QN_WIDE_SLACK * sqrt(reach2 * p->idd_most);
   return in_range;
 }
 

@@ -15,6 +15,8 @@ enum { QN_LANES = 64, QN_FEW = 8 };
 QN_INLINE unsigned qn_lane_column(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
 QN_INLINE unsigned qn_lane_row(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
 
+typedef struct qn_ends { _Alignas(64) double t[QN_LANES], p[QN_LANES]; } qn_ends; /* places and payloads (walk.h) */
+
 typedef struct qn_packet {
   _Alignas(64) double o[3][QN_LANES], d[3][QN_LANES]; /* d finite, not the zero vector */
   _Alignas(64) double from[QN_LANES], to[QN_LANES];
@@ -23,6 +25,7 @@ typedef struct qn_packet {
   /* What the body derives from the rays. Whoever fills a packet says what is new: a tile that keeps its origins or its
      directions keeps what follows from them. */
   int new_origins, new_directions;
+  int kept_ranges; /* from, to and on are as they were when the body last saw them */
   int few; /* only the first QN_FEW lanes are there */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
      body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. TILE_PAIRS: so they are, and are rounded; the lines are o + olow and
@@ -33,7 +36,13 @@ typedef struct qn_packet {
   _Alignas(64) double idd[QN_LANES], inv[3][QN_LANES]; /* 1 / (d . d); 1 / d_i, or 0 where d_i = 0 */
   _Alignas(64) float omin[3][8], omax[3][8], imin[3][8], imax[3][8]; /* of each eight lanes, rounded outward; i: of inv, widened */
   double low[3], high[3], dabs[3], dd_min, dd_max; /* of all lanes: origins, |d_i|, d . d */
+  float all_imin[3], all_imax[3]; /* of all lanes */
+  double d_most, idd_most, shy;   /* sqrt(dd_max), 1 / dd_min, 1 / sqrt(QN_WIDE_SHY dd_min) */
   int axis[3];
+  qn_ends start; /* where the range begins, within what ends are taken for */
+  _Alignas(64) double stop[QN_LANES];
+  float soonest, latest; /* of all lanes: start and stop, rounded outward */
+  uint64_t empty;        /* lanes without a range of any length */
 } qn_packet;
 
 /* What became of each lane. A lane is in at most one of `found` and `unsure`. */
@@ -83,6 +92,8 @@ struct qn_wide_point;
 /* The sides of points, as far as doubles certify them: wide/points.h. */
 typedef void (*qn_points_fn)(const struct quoin_scene *scene, struct qn_point_walk *walk, size_t n, const struct qn_wide_point *points, uint8_t *verdict,
                              qn_wide_counts *counts);
+/* The spots of a whole tile into eight rows of eight, `stride` apart: of the lanes in `met`, at t (aligned to 64); nothing in the others. */
+typedef void (*qn_spots_fn)(const qn_packet_hits *hits, uint64_t met, const double t[QN_LANES], quoin_spot *out, size_t stride);
 
 typedef struct qn_wide {
   const char *name;
@@ -92,6 +103,7 @@ typedef struct qn_wide {
   qn_spans_fn spans, spans_few; /* of all lanes; of the first QN_FEW */
   unsigned width;               /* lanes of a group in qn_packet_spans */
   qn_points_fn points; /* wide/points.h */
+  qn_spots_fn spots;
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

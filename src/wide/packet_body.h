@@ -99,8 +99,22 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
     if (!vbits(m)) {
       continue;
     }
-    note_errors(w, g, s.error, m);
-    vd start = vload(from->t + o), pstart = vload(from->p + o);
+    double *tolerance = w->tolerance + o;
+    const vd all = vmax(vload(tolerance), vpick(m, vadd(s.error, s.error), vset(0)));
+    vstore(tolerance, all);
+    vd start = vload(from->t + o), pstart = vload(from->p + o), limit = vload(best->t + o);
+    /* Mostly the three orders below are certain; then they come out as here. */
+    vd to_end = vsub(s.b, start), to_entry = vsub(s.a, start);
+    vm over = vandnot(m, vlt(all, to_end)), entered = vandnot(m, vlt(all, to_entry));
+    vd t1 = vpick(entered, start, s.a), to_limit = vsub(limit, t1);
+    vm sure = vand(vlt(all, vabs(to_end)), vor(over, vand(vlt(all, vabs(to_entry)), vlt(all, vabs(to_limit)))));
+    if (QN_LIKELY(!vbits(vandnot(m, sure)))) {
+      vm better = vand(vandnot(m, over), vlt(all, to_limit));
+      vstore(best->t + o, vpick(better, t1, limit));
+      vstore(best->p + o, vpick(better, vpick(entered, pstart, s.pa), vload(best->p + o)));
+      *found |= (uint64_t)vbits(better) << o;
+      continue;
+    }
     order(w, g, start, pstart, s.b, s.pb, &m, &ahead, &equal); /* not yet over */
     m = vand(m, ahead);
     order(w, g, start, pstart, s.a, s.pa, &m, &before, &equal);
@@ -243,54 +257,81 @@ static float earliest(const walk *w, const lanes *at, uint64_t mask) {
   return first;
 }
 
-static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
-  const qn_union *un = &w->normal->unions[u];
-  const qn_nterm *terms = w->normal->terms;
-  uint64_t found = 0;
-  mask &= ~w->unsure;
-  if (!mask) {
-    return 0;
+typedef struct waiting { float near; uint32_t node; } waiting;
+
+/* Farthest first, so that the nearest is taken next. */
+QN_INLINE int push_children(const qn_bvh_node *n, unsigned meets, const float near[8], waiting *stack, int top) {
+  for (const int first = top; meets; meets &= meets - 1) {
+    unsigned c = qn_trailing_zeros(meets);
+    int j = top++;
+    for (; j > first && stack[j - 1].near < near[c]; j--) {
+      stack[j] = stack[j - 1];
+    }
+    stack[j].near = near[c], stack[j].node = n->child[c];
   }
+  return top;
+}
+
+/* No lane starts before `start` or has a best place after `end`. meets, near: the root's children that may be met, and where. */
+static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint64_t mask, lanes *best, float start, float end, unsigned meets, float near[8]) {
+  const qn_nterm *terms = w->normal->terms;
+  uint64_t found = 0, better = 0;
   for (uint32_t i = 0; i < un->wide; i++) {
-    term_enter(w, &terms[un->wide0 + i], from, mask, best, &found);
+    term_enter(w, &terms[un->wide0 + i], from, mask, best, &better);
   }
   if (un->root == QN_NO_ROOT) {
-    return found & ~w->unsure;
+    return better & ~w->unsure;
   }
-  struct { float near; uint32_t node; } stack[STACK];
-  int top = 0;
-  float start = earliest(w, from, mask), end = latest(w, best, mask);
-  stack[top].near = -INFINITY, stack[top++].node = un->root;
-  while (top) {
-    top--;
-    if (stack[top].near > end) {
-      continue;
+  waiting stack[STACK];
+  int top = push_children(&w->normal->nodes[un->root], meets, near, stack, 0);
+  for (;;) {
+    if (better) {
+      found |= better, better = 0;
+      end = latest(w, best, mask & ~w->unsure);
     }
+    do {
+      if (!top) {
+        return found & ~w->unsure;
+      }
+    } while (stack[--top].near > end);
     uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
       const qn_nterm *t = &terms[at & ~QN_BVH_LEAF];
       uint64_t in = subs_meet(w, t) & mask & ~w->unsure;
       if (in) {
-        term_enter(w, t, from, in, best, &found);
-        end = latest(w, best, mask & ~w->unsure);
+        term_enter(w, t, from, in, best, &better);
+        if (!top) {
+          return (found | better) & ~w->unsure;
+        }
       }
       continue;
     }
     const qn_bvh_node *n = &w->normal->nodes[at];
-    _Alignas(32) float near[8];
     w->counts.nodes++;
-    unsigned meets = node_meets(w, n, start, end, near);
-    int first = top;
-    for (; meets; meets &= meets - 1) { /* farthest first, so that the nearest is taken next */
-      unsigned c = qn_trailing_zeros(meets);
-      int j = top++;
-      for (; j > first && stack[j - 1].near < near[c]; j--) {
-        stack[j] = stack[j - 1];
-      }
-      stack[j].near = near[c], stack[j].node = n->child[c];
-    }
+    meets = node_meets(w, n, start, end, near);
+    top = push_children(n, meets, near, stack, top);
   }
-  return found & ~w->unsure;
+}
+
+/* The root's children that may be met. */
+QN_INLINE unsigned root_meets(walk *w, const qn_union *un, float start, float end, float near[8]) {
+  if (un->root == QN_NO_ROOT) {
+    return 0;
+  }
+  w->counts.nodes++;
+  return node_meets(w, &w->normal->nodes[un->root], start, end, near);
+}
+
+static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
+  mask &= ~w->unsure;
+  if (!mask) {
+    return 0;
+  }
+  const qn_union *un = &w->normal->unions[u];
+  _Alignas(32) float near[8];
+  float start = earliest(w, from, mask), end = latest(w, best, mask);
+  unsigned meets = root_meets(w, un, start, end, near);
+  return union_walk(w, un, from, mask, best, start, end, meets, near);
 }
 
 /* Boxes of the lanes' points, one for each sub-packet; slack for their rounding. */
@@ -384,44 +425,42 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     return;
   }
   const qn_union *root = &scene->normal.unions[scene->normal.root];
-  if (root->wide == 0) { /* nothing near: no ray need be made */
-    _Alignas(32) float near[8];
-    counts->packets++, counts->nodes++;
-    if (root->root == QN_NO_ROOT || !node_meets(&w, &scene->normal.nodes[root->root], -INFINITY, INFINITY, near)) {
-      return;
-    }
+  _Alignas(32) float near[8];
+  const unsigned meets = root_meets(&w, root, packet->soonest, packet->latest, near);
+  counts->packets++;
+  if (root->wide == 0 && !meets) { /* nothing near: no ray need be made */
+    counts->nodes += w.counts.nodes;
+    return;
   }
   if (packet->tile == QN_TILE_ORIGINS) {
     fill_tile(packet, packet->o);
   }
-  lanes start, best;
-  const double nobody = payload_bits(QN_NOBODY);
-  const vd none = vset(nobody);
+#if QN_LANES_NOW == 64
+  const lanes *start = &packet->start;
+#else
+  lanes first;
+  memcpy(first.t, packet->start.t, sizeof first.t), memcpy(first.p, packet->start.p, sizeof first.p);
+  const lanes *start = &first;
+#endif
+  lanes best;
+  const vd none = vset(payload_bits(QN_NOBODY));
   for (int j = 0; j < QN_LANES_NOW; j += QN_W) {
     vstore(w.tolerance + j, vset(0));
-    vstore(start.t + j, vmax(vload(packet->from + j), vset(-QN_FAR)));
-    vstore(best.t + j, vmin(vload(packet->to + j), vset(QN_FAR))), vstore(best.p + j, none);
+    vstore(best.t + j, vload(packet->stop + j)), vstore(best.p + j, none);
   }
-  for (int j = 0; j < QN_LANES_NOW; j++) {
-    start.p[j] = payload_bits(packet->on[j] | QN_STARTS_ON);
+  uint64_t mask = packet->live & ~packet->empty, leaving = 0;
+  for (uint64_t m = packet->live & packet->empty; m; m &= m - 1) { /* no stretch is left: of one point, or out of the range of ends */
+    unsigned k = qn_trailing_zeros(m);
+    w.unsure |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
   }
-  uint64_t mask = packet->live, leaving = 0;
-  for (int g = 0; g < QN_GROUPS; g++) { /* no stretch is left: of one point, or out of the range of ends */
-    unsigned empty = QN_ALL_BITS & ~vbits(vlt(vload(start.t + g * QN_W), vload(best.t + g * QN_W))) & (unsigned)(mask >> (g * QN_W));
-    for (; empty; empty &= empty - 1) {
-      unsigned k = (unsigned)(g * QN_W) + qn_trailing_zeros(empty);
-      mask &= ~((uint64_t)1 << k);
-      w.unsure |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
-    }
-  }
-  uint64_t found = union_enter(&w, scene->normal.root, &start, mask, &best);
+  uint64_t found = mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near) : 0;
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
   for (int g = 0; g < QN_GROUPS; g++) {
     within |= (uint64_t)vsigns(vload(best.p + g * QN_W)) << (g * QN_W); /* QN_STARTS_ON */
   }
   within &= found;
   if (within) {
-    lanes at = start;
+    lanes at = *start;
     uint64_t left = union_leave(&w, scene->normal.root, &at, within);
     found &= ~(within & ~left);
     leaving = left;
@@ -436,30 +475,36 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
       }
     }
   }
-  for (uint64_t m = found & ~w.unsure; m; m &= m - 1) { /* beyond reach planes may have been taken for what they are not: something else is there */
-    unsigned k = qn_trailing_zeros(m);
-    w.unsure |= (uint64_t)!(fabs(best.t[k]) <= w.f.reach) << k;
+  const vd reach = vset(w.f.reach);
+  for (int g = 0; g < QN_GROUPS; g++) { /* beyond reach planes may have been taken for what they are not: something else is there */
+    int o = g * QN_W;
+    vd t = vload(best.t + o);
+    w.unsure |= ((uint64_t)(QN_ALL_BITS & ~vbits(vle(vabs(t), reach))) << o) & found;
+    vstore(hits->t + o, t), vstore(hits->error + o, vmul(vload(w.tolerance + o), vset(0.5)));
+    hits->far_end |= (uint64_t)vsecond(vload(best.p + o)) << o;
   }
   hits->unsure = w.unsure & packet->live;
   hits->found = found & packet->live & ~w.unsure;
   hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
-  hits->far_end = 0;
-  for (uint64_t m = hits->found; m; m &= m - 1) {
-    unsigned k = qn_trailing_zeros(m);
-    uint64_t payload;
-    memcpy(&payload, &best.p[k], 8);
-    int tied = w.ties[k] > TIES;
-    for (int i = 0; i < w.ties[k] && i < TIES; i++) {
-      tied |= !(fabs(w.tie[i][k] - best.t[k]) > w.tolerance[k]);
+  hits->far_end &= hits->found;
+  for (int j = 0; j < QN_LANES_NOW; j += 8) {
+    uint64_t any, payload[8];
+    memcpy(payload, best.p + j, sizeof payload);
+    for (int k = 0; k < 8; k++) {
+      hits->surface[j + k] = (uint32_t)payload[k];
+      hits->leaf[j + k] = (uint32_t)(payload[k] >> 32) & QN_LEAF_BITS;
     }
-    hits->tied |= (uint64_t)tied << k;
-    hits->t[k] = best.t[k];
-    hits->error[k] = w.tolerance[k] / 2;
-    hits->surface[k] = (uint32_t)payload;
-    hits->leaf[k] = (uint32_t)(payload >> 32) & QN_LEAF_BITS;
-    hits->far_end |= (payload >> 62 & 1) << k;
+    memcpy(&any, w.ties + j, 8);
+    for (int k = j; any && k < j + 8; k++) {
+      int tied = w.ties[k] > TIES;
+      for (int i = 0; i < w.ties[k] && i < TIES; i++) {
+        tied |= !(fabs(w.tie[i][k] - best.t[k]) > w.tolerance[k]);
+      }
+      hits->tied |= (uint64_t)tied << k;
+    }
   }
-  counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves, counts->packets++;
+  hits->tied &= hits->found;
+  counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
 }
 
 #endif

@@ -61,16 +61,15 @@ QN_INLINE void sphere_prepare(const packet_facts *f, const qn_piece_sphere *s, s
     Y += y;
     H += y * f->p->dabs[i];
   }
-  double r = sqrt(s->r2), d = sqrt(f->p->dd_max);
+  const double r = s->radius, d = f->p->d_most, idd = f->p->idd_most;
   /* | |m^| - |m| | <= delta with m = y - (y.d / d.d) d from the true centre; lanes with |m^| > 2r are sure misses while delta < r/8. */
-  double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d / f->p->dd_min) + s->off) + QN_WIDE_TINY;
+  double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d * idd) + s->off) + QN_WIDE_TINY;
   double ed = delta < r / 8 ? 8 * r * delta + 3 * delta * delta + QN_WIDE_ROUND * QN_U * 5 * s->r2 : INFINITY;
-  double solved = QN_WIDE_SHY * ed;
-  double root_error = ed / sqrt(solved * f->p->dd_min); /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > solved; twice what it is */
+  double root_error = sqrt(ed) * f->p->shy; /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > QN_WIDE_SHY ed; twice what it is */
   k->cx = vset(s->centre[0]), k->cy = vset(s->centre[1]), k->cz = vset(s->centre[2]);
   k->r2 = vset(s->r2);
-  k->ed_low = vset(-ed), k->ed_high = vset(solved);
-  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) / f->p->dd_min + 2 * root_error + QN_WIDE_TINY);
+  k->ed_low = vset(-ed), k->ed_high = vset(QN_WIDE_SHY * ed);
+  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) * idd + 2 * root_error + QN_WIDE_TINY);
   k->pa = vset(payload_bits(payload_of(s->surface, s->head.leaf, 0)));
   k->pb = vset(payload_bits(payload_of(s->surface, s->head.leaf, QN_LARGER_ROOT)));
 }

@@ -42,6 +42,16 @@ QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm512_mask_blend_pd(m, b, a); } /
 QN_INLINE unsigned vbits(vm m) { return m; }
 QN_INLINE unsigned vsigns(vd a) { return _mm512_movepi64_mask(_mm512_castpd_si512(a)); } /* lanes with the sign bit set */
 QN_INLINE vm vmask(unsigned bits) { return (vm)bits; }
+QN_INLINE unsigned vsecond(vd a) { return _mm512_movepi64_mask(_mm512_slli_epi64(_mm512_castpd_si512(a), 1)); } /* the bit below the sign */
+QN_INLINE vd vbitor(vd a, vd b) { return _mm512_or_pd(a, b); }
+QN_INLINE vd vwords(const uint32_t *p) { return _mm512_castsi512_pd(_mm512_cvtepu32_epi64(_mm256_loadu_si256((const __m256i *)(const void *)p))); } /* zero-extended */
+/* Lanes j and j + 1 of a and b in turn: a0 b0 a1 b1 into to[0], a2 b2 a3 b3 into to[1], and so on; no alignment. */
+QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
+  const __m512i even = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0), odd = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
+  __m512d x = _mm512_permutex2var_pd(a, even, b), y = _mm512_permutex2var_pd(a, odd, b);
+  _mm256_storeu_pd(to[0], _mm512_castpd512_pd256(x)), _mm256_storeu_pd(to[1], _mm512_extractf64x4_pd(x, 1));
+  _mm256_storeu_pd(to[2], _mm512_castpd512_pd256(y)), _mm256_storeu_pd(to[3], _mm512_extractf64x4_pd(y, 1));
+}
 
 #elif defined(QN_ISA_AVX2)
 #define QN_W 4
@@ -50,6 +60,7 @@ typedef __m256d vm;
 QN_INLINE vd vset(double a) { return _mm256_set1_pd(a); }
 QN_INLINE vd vload(const double *p) { return _mm256_load_pd(p); }
 QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm256_set_pd(p[3][i], p[2][i], p[1][i], p[0][i]); }
+QN_INLINE vd vfour(double a, double b, double c, double d) { return _mm256_set_pd(d, c, b, a); }
 QN_INLINE void vstore(double *p, vd a) { _mm256_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm256_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm256_sub_pd(a, b); }
@@ -70,6 +81,13 @@ QN_INLINE vm vandnot(vm a, vm b) { return _mm256_andnot_pd(b, a); }
 QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm256_blendv_pd(b, a, m); }
 QN_INLINE unsigned vbits(vm m) { return (unsigned)_mm256_movemask_pd(m); }
 QN_INLINE unsigned vsigns(vd a) { return (unsigned)_mm256_movemask_pd(a); }
+QN_INLINE unsigned vsecond(vd a) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(a), 1))); }
+QN_INLINE vd vbitor(vd a, vd b) { return _mm256_or_pd(a, b); }
+QN_INLINE vd vwords(const uint32_t *p) { return _mm256_castsi256_pd(_mm256_cvtepu32_epi64(_mm_loadu_si128((const __m128i *)(const void *)p))); }
+QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
+  __m256d x = _mm256_unpacklo_pd(a, b), y = _mm256_unpackhi_pd(a, b); /* a0 b0 a2 b2, a1 b1 a3 b3 */
+  _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(x, y, 0x20)), _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(x, y, 0x31));
+}
 QN_INLINE vm vmask(unsigned bits) {
   const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
   return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)bits), lane), lane));
@@ -102,6 +120,12 @@ QN_INLINE vm vandnot(vm a, vm b) { return _mm_andnot_pd(b, a); }
 QN_INLINE vd vpick(vm m, vd a, vd b) { return _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)); }
 QN_INLINE unsigned vbits(vm m) { return (unsigned)_mm_movemask_pd(m); }
 QN_INLINE unsigned vsigns(vd a) { return (unsigned)_mm_movemask_pd(a); }
+QN_INLINE unsigned vsecond(vd a) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(a), 1))); }
+QN_INLINE vd vbitor(vd a, vd b) { return _mm_or_pd(a, b); }
+QN_INLINE vd vwords(const uint32_t *p) { return _mm_castsi128_pd(_mm_set_epi64x((long long)p[1], (long long)p[0])); }
+QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
+  _mm_storeu_pd(to[0], _mm_unpacklo_pd(a, b)), _mm_storeu_pd(to[0] + 2, _mm_unpackhi_pd(a, b));
+}
 QN_INLINE vm vmask(unsigned bits) {
   return _mm_castsi128_pd(_mm_set_epi64x(bits & 2 ? -1 : 0, bits & 1 ? -1 : 0));
 }

@@ -5,7 +5,11 @@
 
 #include "wide/solve.h"
 
+#if QN_LANES_NOW == 64
+typedef qn_ends lanes;
+#else
 typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
+#endif
 
 enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 7 * QN_BVH_DEPTH + 8, TIES = 4 };
 

@@ -136,7 +136,7 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
 static void fill_packet(qn_packet *p, const quoin_ray *rays, unsigned lanes, const uint8_t *lane_of) {
   p->tile = QN_TILE_NONE;
   p->few = lanes == QN_FEW;
-  p->new_origins = p->new_directions = 1;
+  p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
   for (unsigned lane = 0; lane < lanes; lane++) {
     const quoin_ray *r = &rays[lane_of[lane]];
     for (int i = 0; i < 3; i++) {
