@@ -54,7 +54,8 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   if (scene->normal.made) {
     qn_counts *counts = qn_scratch_counts(work->scratch);
     qn_wide_counts wide = {0};
-    (packet->few ? work->wide->few : work->wide->first)(scene, packet, hits, &wide);
+    const qn_wide *body = work->wide;
+    (packet->few == QN_MANY_LANES ? body->first : packet->few == QN_FEW_LANES ? body->few : body->one)(scene, packet, hits, &wide);
     counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
     const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
     counts->rays += lanes - unsure;
@@ -98,19 +99,15 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   return QUOIN_OK;
 }
 
-/* Whether a packet pays: directions agree in sign wherever they are not small, and within some tens of degrees. Rays that do not are
-   tens of times slower in a packet than alone. */
+/* Whether directions are within some tens of degrees of the first one. Rays that are not are tens of times slower in a packet than alone. */
 static int go_together(const quoin_ray *rays, size_t n) {
-  double sum[3] = {0, 0, 0};
-  for (size_t i = 0; i < n; i++) {
-    const double *d = rays[i].d;
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int k = 0; k < 3; k++) {
-      sum[k] += d[k] / length;
-    }
+  const double *a = rays[0].d, square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  int together = 1;
+  for (size_t i = 1; i < n; i++) {
+    const double *b = rays[i].d, way = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    together &= way > 0 && way * way > 0.8 * (square * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
   }
-  /* The mean of unit vectors is as long as they are alike. */
-  return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2] > 0.9 * (double)(n * n);
+  return together;
 }
 
 /* Puts rays into the first lanes of a packet and repeats the last in the others up to `lanes`. */
@@ -124,7 +121,7 @@ static void fill(qn_packet *p, size_t lanes, size_t n, const quoin_ray *rays, co
     p->on[lane] = on ? on[i] : QUOIN_NO_SURFACE;
   }
   p->live = n == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << n) - 1;
-  p->few = lanes == QN_FEW;
+  p->few = n == 1 ? QN_ONE_LANE : lanes == QN_FEW ? QN_FEW_LANES : QN_MANY_LANES;
   p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
   p->tile = QN_TILE_NONE;
 }

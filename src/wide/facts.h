@@ -35,6 +35,7 @@ static void see_origins(qn_packet *p) {
   }
 }
 
+#if QN_LANES_NOW == 64 /* tiles */
 /* Floats below and above eight doubles. */
 QN_INLINE void downs(const double v[8], float out[8]) {
   for (int k = 0; k < 8; k++) {
@@ -84,6 +85,7 @@ static void fill_tile(qn_packet *p, double (*to)[QN_LANES]) {
 #endif
   }
 }
+#endif
 
 static void see_directions(qn_packet *p) {
   const vd zero = vset(0), one = vset(1);
@@ -98,12 +100,14 @@ static void see_directions(qn_packet *p) {
     vstore(p->idd + g, vdiv(one, dd));
   }
   double low, high;
-  p->dd_min = INFINITY, p->dd_max = 0;
-  for (int k = 0; k < SUBS; k++) {
-    extremes(p->idd + k * SUB_LANES, &low, &high);
-    p->dd_min = least(p->dd_min, 1 / (QN_WIDE_SLACK * high)), p->dd_max = most(p->dd_max, QN_WIDE_SLACK / low);
+  extremes(p->idd, &low, &high);
+  for (int k = 1; k < SUBS; k++) {
+    double l, h;
+    extremes(p->idd + k * SUB_LANES, &l, &h);
+    low = least(low, l), high = most(high, h);
   }
-  p->d_most = sqrt(p->dd_max), p->idd_most = 1 / p->dd_min, p->shy = sqrt(p->idd_most / QN_WIDE_SHY);
+  p->dd_min = 1 / (QN_WIDE_SLACK * high), p->dd_max = QN_WIDE_SLACK / low;
+  p->d_most = sqrt(p->dd_max), p->idd_most = QN_WIDE_SLACK * QN_WIDE_SLACK * high, p->shy = sqrt(p->idd_most * (1 / QN_WIDE_SHY));
   for (int i = 0; i < 3; i++) {
     double dlow = INFINITY, dhigh = -INFINITY;
     int finite = 1;
@@ -144,12 +148,16 @@ static void see_ranges(qn_packet *p) {
 static int facts(walk *w, qn_packet *p) {
   packet_facts *f = &w->f;
   f->p = p;
+  int seen = !p->new_origins;
+#if QN_LANES_NOW == 64
   if (p->tile == QN_TILE_DIRECTIONS) {
     fill_tile(p, p->d);
-  }
-  if (p->tile == QN_TILE_ORIGINS) {
+  } else if (p->tile == QN_TILE_ORIGINS) {
     see_tile_origins(p);
-  } else if (p->new_origins) {
+    seen = 1;
+  }
+#endif
+  if (!seen) {
     see_origins(p);
   }
   if (p->new_directions) {

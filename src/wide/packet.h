@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 
 enum { QN_LANES = 64, QN_FEW = 8 };
+enum { QN_MANY_LANES, QN_FEW_LANES, QN_ONE_LANE }; /* how many lanes of a packet are there: QN_LANES, QN_FEW or 1 */
 
 QN_INLINE unsigned qn_lane_column(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
 QN_INLINE unsigned qn_lane_row(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
@@ -26,7 +27,7 @@ typedef struct qn_packet {
      directions keeps what follows from them. */
   int new_origins, new_directions;
   int kept_ranges; /* from, to and on are as they were when the body last saw them */
-  int few; /* only the first QN_FEW lanes are there */
+  int few; /* QN_FEW_LANES, QN_ONE_LANE: only the first ones are there */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
      body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. TILE_PAIRS: so they are, and are rounded; the lines are o + olow and
      d + dlow, to 2^-104 of each number, and |olow| is at most u |o|, |dlow| at most u |d|. */
@@ -37,7 +38,7 @@ typedef struct qn_packet {
   _Alignas(64) float omin[3][8], omax[3][8], imin[3][8], imax[3][8]; /* of each eight lanes, rounded outward; i: of inv, widened */
   double low[3], high[3], dabs[3], dd_min, dd_max; /* of all lanes: origins, |d_i|, d . d */
   float all_imin[3], all_imax[3]; /* of all lanes */
-  double d_most, idd_most, shy;   /* sqrt(dd_max), 1 / dd_min, 1 / sqrt(QN_WIDE_SHY dd_min) */
+  double d_most, idd_most, shy;   /* at least sqrt(dd_max), 1 / dd_min and 1 / sqrt(QN_WIDE_SHY dd_min) */
   int axis[3];
   qn_ends start; /* where the range begins, within what ends are taken for */
   _Alignas(64) double stop[QN_LANES];
@@ -85,7 +86,7 @@ typedef struct qn_packet_spans {
 #define QN_SPAN_LARGER ((uint64_t)1 << 62)
 #define QN_SPAN_LEAF 0x3fffffffu /* of the upper half */
 
-/* Fills spans; live lanes must have from < to or are not solved. */
+/* Fills spans; live lanes must have from < to or are not solved. No tiles. */
 typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
 struct qn_point_walk;
 struct qn_wide_point;
@@ -99,6 +100,7 @@ typedef struct qn_wide {
   const char *name;
   qn_first_fn first; /* all QN_LANES lanes: every lane's numbers must be there, live or not */
   qn_first_fn few;   /* the first QN_FEW lanes alone, as quick as those need; no tiles */
+  qn_first_fn one;   /* the first lane alone */
   qn_round_fn round;
   qn_spans_fn spans, spans_few; /* of all lanes; of the first QN_FEW */
   unsigned width;               /* lanes of a group in qn_packet_spans */

@@ -1,5 +1,5 @@
 /* The packet body: the first boundary of up to QN_LANES_NOW rays. Compiled once for each instruction set and each number of lanes (packet.wide.c,
-   few.wide.c; see CMakeLists.txt).
+   few.wide.c, one.wide.c; see CMakeLists.txt).
 
    Two questions that call each other walk the normal form (scene/normal.h). enter: the first place in a union at or after a
    lane's place. leave: the place after which no term of a union holds the lane. A term [a, b) minus S is entered at leave(S, max(a, t))
@@ -335,7 +335,7 @@ static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mas
 }
 
 /* Boxes of the lanes' points, one for each sub-packet; slack for their rounding. */
-typedef struct spots { _Alignas(32) float min[3][SUBS], max[3][SUBS]; float all_min[3], all_max[3]; } spots;
+typedef struct spots { _Alignas(32) float min[3][8], max[3][8]; float all_min[3], all_max[3]; } spots;
 
 static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
   const qn_packet *p = w->f.p;
@@ -381,8 +381,8 @@ static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask
     uint32_t node = stack[--top];
     if (node & QN_BVH_LEAF) {
       const qn_nterm *t = &terms[node & ~QN_BVH_LEAF];
-      unsigned in = 0xff;
-      for (int i = 0; i < 3; i++) {
+      unsigned in = SUBS == 1 ? 1 : 0xff; /* of one lane, the box of the node above was the same */
+      for (int i = 0; SUBS > 1 && i < 3; i++) {
         in &= fle(fset(t->min[i]), fload(s.max[i])) & fle(fload(s.min[i]), fset(t->max[i]));
       }
       uint64_t lanes_in = eights(in) & mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
@@ -432,9 +432,11 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     counts->nodes += w.counts.nodes;
     return;
   }
+#if QN_LANES_NOW == 64
   if (packet->tile == QN_TILE_ORIGINS) {
     fill_tile(packet, packet->o);
   }
+#endif
 #if QN_LANES_NOW == 64
   const lanes *start = &packet->start;
 #else
@@ -487,15 +489,16 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   hits->found = found & packet->live & ~w.unsure;
   hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
   hits->far_end &= hits->found;
-  for (int j = 0; j < QN_LANES_NOW; j += 8) {
-    uint64_t any, payload[8];
+  enum { RUN = QN_LANES_NOW < 8 ? QN_LANES_NOW : 8 };
+  for (int j = 0; j < QN_LANES_NOW; j += RUN) {
+    uint64_t any = 0, payload[RUN];
     memcpy(payload, best.p + j, sizeof payload);
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < RUN; k++) {
       hits->surface[j + k] = (uint32_t)payload[k];
       hits->leaf[j + k] = (uint32_t)(payload[k] >> 32) & QN_LEAF_BITS;
     }
-    memcpy(&any, w.ties + j, 8);
-    for (int k = j; any && k < j + 8; k++) {
+    memcpy(&any, w.ties + j, RUN);
+    for (int k = j; any && k < j + RUN; k++) {
       int tied = w.ties[k] > TIES;
       for (int i = 0; i < w.ties[k] && i < TIES; i++) {
         tied |= !(fabs(w.tie[i][k] - best.t[k]) > w.tolerance[k]);

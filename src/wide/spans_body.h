@@ -78,9 +78,6 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
     out->unsure = packet->live;
     return;
   }
-  if (packet->tile == QN_TILE_ORIGINS) {
-    fill_tile(packet, packet->o);
-  }
   double from = INFINITY, to = -INFINITY;
   uint64_t mask = 0;
   for (uint64_t m = packet->live; m; m &= m - 1) {

@@ -12,7 +12,47 @@
 #include <immintrin.h>
 #include <stdint.h>
 
-#if defined(QN_ISA_AVX512)
+#if defined(QN_SCALAR) /* one lane: a body for a single ray, with the same formulas */
+#include <string.h>
+#define QN_W 1
+typedef double vd;
+typedef unsigned vm;
+QN_INLINE uint64_t vword(vd a) {
+  uint64_t w;
+  memcpy(&w, &a, sizeof w);
+  return w;
+}
+QN_INLINE vd vset(double a) { return a; }
+QN_INLINE vd vload(const double *p) { return *p; }
+QN_INLINE void vstore(double *p, vd a) { *p = a; }
+QN_INLINE vd vadd(vd a, vd b) { return a + b; }
+QN_INLINE vd vsub(vd a, vd b) { return a - b; }
+QN_INLINE vd vmul(vd a, vd b) { return a * b; }
+QN_INLINE vd vdiv(vd a, vd b) { return a / b; }
+QN_INLINE vd vsqrt(vd a) { return __builtin_sqrt(a); }
+#if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
+QN_INLINE vd vfma(vd a, vd b, vd c) { return __builtin_fma(a, b, c); }
+QN_INLINE vd vfms(vd a, vd b, vd c) { return __builtin_fma(a, b, -c); }
+#else
+QN_INLINE vd vfma(vd a, vd b, vd c) { return a * b + c; }
+QN_INLINE vd vfms(vd a, vd b, vd c) { return a * b - c; }
+#endif
+QN_INLINE vd vmin(vd a, vd b) { return a < b ? a : b; }
+QN_INLINE vd vmax(vd a, vd b) { return a > b ? a : b; }
+QN_INLINE vd vabs(vd a) { return __builtin_fabs(a); }
+QN_INLINE vm vlt(vd a, vd b) { return a < b; }
+QN_INLINE vm vle(vd a, vd b) { return a <= b; }
+QN_INLINE vm veq(vd a, vd b) { return a == b; }
+QN_INLINE vm vand(vm a, vm b) { return a & b; }
+QN_INLINE vm vor(vm a, vm b) { return a | b; }
+QN_INLINE vm vandnot(vm a, vm b) { return a & ~b; }
+QN_INLINE vd vpick(vm m, vd a, vd b) { return m ? a : b; }
+QN_INLINE unsigned vbits(vm m) { return m; }
+QN_INLINE unsigned vsigns(vd a) { return (unsigned)(vword(a) >> 63); }
+QN_INLINE unsigned vsecond(vd a) { return (unsigned)(vword(a) >> 62 & 1); }
+QN_INLINE vm vmask(unsigned bits) { return bits; }
+
+#elif defined(QN_ISA_AVX512)
 #define QN_W 8
 typedef __m512d vd;
 typedef __mmask8 vm;

@@ -11,7 +11,7 @@ typedef qn_ends lanes;
 typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
 #endif
 
-enum { SUBS = 8, SUB_LANES = QN_LANES_NOW / SUBS, SUB_MASK = (1 << SUB_LANES) - 1, STACK = 7 * QN_BVH_DEPTH + 8, TIES = 4 };
+enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK = 7 * QN_BVH_DEPTH + 8, TIES = 4 };
 
 /* How a packet's directions lie on an axis. */
 enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
@@ -124,6 +124,9 @@ QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, 
 
 /* The sub-packets that may meet a term's box, as lanes. */
 QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
+  if (SUBS == 1) {
+    return 1; /* the box of the node above was the same */
+  }
   vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
   for (int i = 0; i < 3; i++) {
     bmin[i] = fset(t->min[i]), bmax[i] = fset(t->max[i]);

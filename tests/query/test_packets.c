@@ -85,7 +85,7 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
   qn_packet_hits hits;
   qn_wide_counts counts = {0};
   p->live = live;
-  (p->few ? bodies[body]->few : bodies[body]->first)(a->scene, p, &hits, &counts);
+  (p->few == QN_MANY_LANES ? bodies[body]->first : p->few == QN_FEW_LANES ? bodies[body]->few : bodies[body]->one)(a->scene, p, &hits, &counts);
   _Alignas(64) double rounded[QN_LANES];
   uint64_t made = 0, sure = 0;
   if ((hits.found | hits.unsure) & ~live || hits.found & hits.unsure || (hits.leaving | hits.tied) & ~hits.found) {
@@ -135,7 +135,7 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
 
 static void fill_packet(qn_packet *p, const quoin_ray *rays, unsigned lanes, const uint8_t *lane_of) {
   p->tile = QN_TILE_NONE;
-  p->few = lanes == QN_FEW;
+  p->few = lanes == 1 ? QN_ONE_LANE : lanes == QN_FEW ? QN_FEW_LANES : QN_MANY_LANES;
   p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
   for (unsigned lane = 0; lane < lanes; lane++) {
     const quoin_ray *r = &rays[lane_of[lane]];
@@ -179,6 +179,11 @@ static void one_bundle(dice *d, const ask *a, const char *text, kind k, const fr
       judge(a, text, k, body, &p, live, rays, want, lane_of);
       fill_packet(&p, rays, QN_FEW, lane_of);
       judge(a, text, k, body, &p, roll(d, 2) ? 0xff : live & 0xff, rays, want, lane_of);
+      for (int i = 0; i < 8; i++) {
+        const uint8_t alone[1] = {lane_of[(turn + 8 * (unsigned)i) % 64]};
+        fill_packet(&p, rays, 1, alone);
+        judge(a, text, k, body, &p, 1, rays, want, alone);
+      }
     }
   }
   /* As first hits, with everything that is said of them. */
@@ -380,6 +385,8 @@ static void known_cases(void **state) {
         judge(&a, c->name, (kind){0, 0, 0}, body, &p, ~(uint64_t)0, rays, want, lane_of);
         fill_packet(&p, rays, QN_FEW, lane_of);
         judge(&a, c->name, (kind){0, 0, 0}, body, &p, 0xff, rays, want, lane_of);
+        fill_packet(&p, rays, 1, lane_of);
+        judge(&a, c->name, (kind){0, 0, 0}, body, &p, 1, rays, want, lane_of);
       }
     }
     ask_close(&a);
