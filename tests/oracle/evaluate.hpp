@@ -8,16 +8,49 @@
 #include <CGAL/number_type_basic.h>
 
 #include <algorithm>
+#include <map>
 
 namespace oracle {
 using Root = CGAL::Root_of_traits<Q>::Root_of_2;
 
+using Z = CGAL::Gmpz;
+
 struct Quadratic { // a t^2 + b t + c
-  Q a, b, c;
+  Z a, b, c;
 };
-inline Quadratic along(const Quadric &q, const V &o, const V &d) {
-  std::array<Q, 4> O{o[0], o[1], o[2], 1}, D{d[0], d[1], d[2], 0};
-  return {q.bilinear(D, D), 2 * q.bilinear(O, D), q.bilinear(O, O)};
+// A positive multiple of a quadric with integers: its ten numbers, mixed ones doubled.
+using Whole = std::array<Z, 10>;
+inline Z over(const Q &q, const Z &by) { return CGAL::integral_division(q.numerator() * by, q.denominator()); }
+inline Z common(const Z &a, const Z &b) { return CGAL::integral_division(a, CGAL::gcd(a, b)) * b; }
+inline Whole whole(const Quadric &q) {
+  Z by(1);
+  for (int i = 0; i < 4; i++)
+    for (int j = i; j < 4; j++) by = common(by, q.a[i][j].denominator());
+  Whole w;
+  for (int i = 0, k = 0; i < 4; i++)
+    for (int j = i; j < 4; j++, k++) w[k] = over(q.a[i][j], by) * Z(i == j ? 1 : 2);
+  return w;
+}
+// The line with integers: (o + t d) / w.
+struct Line4 { std::array<Z, 4> o, d; };
+inline Line4 whole(const V &o, const V &d) {
+  Z w(1);
+  for (int i = 0; i < 3; i++) w = common(common(w, o[i].denominator()), d[i].denominator());
+  Line4 l;
+  for (int i = 0; i < 3; i++) l.o[i] = over(o[i], w), l.d[i] = over(d[i], w);
+  l.o[3] = w, l.d[3] = Z(0);
+  return l;
+}
+inline Quadratic along(const Whole &q, const Line4 &l) {
+  Quadratic p{0, 0, 0};
+  for (int i = 0, k = 0; i < 4; i++)
+    for (int j = i; j < 4; j++, k++) {
+      if (q[k] == 0) continue;
+      p.c += q[k] * l.o[i] * l.o[j];
+      if (j < 3) p.a += q[k] * l.d[i] * l.d[j];
+      if (i < 3) p.b += q[k] * (l.d[i] * l.o[j] + l.o[i] * l.d[j]);
+    }
+  return p;
 }
 // Roots where the sign changes, in order; touches (double roots) apart.
 struct Line1 {
@@ -35,13 +68,13 @@ inline Line1 solve(const Quadratic &p) {
   }
   if (p.a == 0) {
     l.first = -CGAL::sign(p.b);
-    l.roots.push_back(Root(-p.c / p.b));
+    l.roots.push_back(Root(Q(-p.c, p.b)));
     return l;
   }
   l.first = CGAL::sign(p.a);
-  Q disc = p.b * p.b - 4 * p.a * p.c;
+  Z disc = p.b * p.b - Z(4) * p.a * p.c;
   if (disc == 0) l.touches = true;
-  if (disc > 0) CGAL::compute_roots_of_2(p.a, p.b, p.c, std::back_inserter(l.roots));
+  if (disc > 0) CGAL::compute_roots_of_2(Q(p.a), Q(p.b), Q(p.c), std::back_inserter(l.roots));
   return l;
 }
 
@@ -54,11 +87,48 @@ struct Answer {
 };
 
 struct Cursor { // one half-space's state on the current stretch
-  Line1 line;
-  size_t next = 0;
-  int sign = 0; // of q; 0 while the surface vanishes: then group tells which
-  int group = -1;
+  int sign = 0;   // of q; for a surface that vanishes: its orientation in its group
+  int group = -1; // of surfaces that vanish
 };
+
+// A solid's half-spaces, in the order of its leaves, as distinct surfaces with a side each.
+struct Surfaces {
+  std::vector<Whole> forms;
+  std::vector<const Quadric *> quadrics; // in the solid, which must live as long
+  std::vector<size_t> of;                // by half-space
+  std::vector<int> side;                 // 1: it is that multiple of the form, -1: of its negative
+  explicit Surfaces(const Node &solid) {
+    std::vector<const Leaf *> leaves;
+    collect(solid, leaves);
+    std::map<Whole, size_t> known;
+    for (const Leaf *l : leaves)
+      for (const Quadric &q : l->halves) {
+        Whole w = whole(q);
+        Z g(0);
+        for (auto &e : w) g = CGAL::gcd(g, e);
+        int sign = 0;
+        for (auto &e : w) {
+          if (sign == 0) sign = CGAL::sign(e);
+          if (g != 0) e = CGAL::integral_division(e, g) * Z(sign == 0 ? 1 : sign);
+        }
+        auto found = known.emplace(w, forms.size());
+        if (found.second) forms.push_back(w), quadrics.push_back(&q);
+        of.push_back(found.first->second), side.push_back(sign);
+      }
+  }
+};
+
+// A root with an interval of doubles around it, which decides most orders; the rest is exact.
+struct Mark {
+  const Root *root;
+  double lo, hi;
+  size_t surface;
+};
+inline int order(const Mark &a, const Mark &b) {
+  if (a.hi < b.lo) return -1;
+  if (b.hi < a.lo) return 1;
+  return a.root == b.root ? 0 : (int)CGAL::compare(*a.root, *b.root);
+}
 
 inline bool evaluate(const Node &n, const std::vector<Cursor> &cursors, size_t &at, unsigned combination) {
   if (n.op == Node::IsLeaf) {
@@ -81,39 +151,26 @@ inline bool evaluate(const Node &n, const std::vector<Cursor> &cursors, size_t &
   return value;
 }
 
-inline Answer intersect(const Node &solid, const V &o, const V &d) {
+inline Answer intersect(const Node &solid, const Surfaces &surfaces, const V &o, const V &d) {
   Answer out;
-  std::vector<const Leaf *> leaves;
-  collect(solid, leaves);
-  std::vector<Cursor> cursors;
+  const Line4 line = whole(o, d);
+  const size_t n = surfaces.forms.size();
+  std::vector<Line1> lines(n);
+  std::vector<int> sign(n), group(n, -1);
   std::vector<const Quadric *> zero_forms;
-  for (const Leaf *l : leaves)
-    for (const Quadric &q : l->halves) {
-      Cursor c;
-      c.line = solve(along(q, o, d));
-      out.touches += c.line.touches;
-      c.sign = c.line.first;
-      if (c.line.zero) {
-        // The point one unit along a vector no surface here was made for; its gradient decides the orientation.
-        size_t g = 0;
-        for (; g < zero_forms.size(); g++)
-          if (proportional(*zero_forms[g], q)) break;
-        if (g == zero_forms.size()) zero_forms.push_back(&q);
-        c.group = (int)g;
-        c.sign = 1;
-        for (int i = 0; i < 16; i++)
-          if (q.a[i / 4][i % 4] != 0) {
-            c.sign = CGAL::sign(q.a[i / 4][i % 4]) * CGAL::sign(zero_forms[g]->a[i / 4][i % 4]);
-            break;
-          }
-      }
-      cursors.push_back(c);
-      for (const Root &r : c.line.roots) out.cuts.push_back(r);
+  std::vector<Mark> marks;
+  for (size_t s = 0; s < n; s++) {
+    Line1 &l = lines[s];
+    l = solve(along(surfaces.forms[s], line));
+    out.touches += l.touches;
+    sign[s] = l.first;
+    if (l.zero) group[s] = (int)zero_forms.size(), sign[s] = 1, zero_forms.push_back(surfaces.quadrics[s]);
+    for (const Root &r : l.roots) {
+      auto i = CGAL::to_interval(r);
+      marks.push_back({&r, i.first, i.second, s});
     }
-  std::sort(out.cuts.begin(), out.cuts.end());
-  size_t all = out.cuts.size();
-  out.cuts.erase(std::unique(out.cuts.begin(), out.cuts.end()), out.cuts.end());
-  out.ties = (int)(all - out.cuts.size());
+  }
+  std::sort(marks.begin(), marks.end(), [](const Mark &a, const Mark &b) { return order(a, b) < 0; });
   // Surfaces that vanish: every combination of sides must be realisable next to the line, or the ray is not judged here.
   out.zero_surfaces = (int)zero_forms.size();
   if (zero_forms.size() > 2) out.skipped = true;
@@ -125,16 +182,24 @@ inline Answer intersect(const Node &solid, const V &o, const V &d) {
       if (zero(cross(g, zero_forms[j]->gradient(p)))) out.skipped = true;
   }
   if (out.skipped) return out;
-  for (size_t i = 0; i <= out.cuts.size(); i++) {
-    if (i > 0)
-      for (Cursor &c : cursors)
-        if (c.next < c.line.roots.size() && c.line.roots[c.next] == out.cuts[i - 1]) c.sign = -c.sign, c.next++;
-    unsigned in = 0, n = 1u << zero_forms.size();
-    for (unsigned k = 0; k < n; k++) {
-      size_t at = 0;
-      in += evaluate(solid, cursors, at, k);
+  std::vector<Cursor> cursors(surfaces.of.size());
+  for (size_t at = 0;;) {
+    for (size_t h = 0; h < cursors.size(); h++) {
+      size_t s = surfaces.of[h];
+      cursors[h].sign = sign[s] * surfaces.side[h], cursors[h].group = group[s];
     }
-    out.what.push_back(in == 0 ? Answer::Outside : in == n ? Answer::Inside : Answer::On);
+    unsigned in = 0, combinations = 1u << zero_forms.size();
+    for (unsigned k = 0; k < combinations; k++) {
+      size_t half = 0;
+      in += evaluate(solid, cursors, half, k);
+    }
+    out.what.push_back(in == 0 ? Answer::Outside : in == combinations ? Answer::Inside : Answer::On);
+    if (at == marks.size()) break;
+    const Mark &here = marks[at];
+    out.cuts.push_back(*here.root);
+    size_t first = at;
+    for (; at < marks.size() && order(here, marks[at]) == 0; at++) sign[marks[at].surface] = -sign[marks[at].surface];
+    out.ties += (int)(at - first - 1);
   }
   // Merge stretches alike.
   std::vector<Root> cuts;
@@ -144,6 +209,7 @@ inline Answer intersect(const Node &solid, const V &o, const V &d) {
   out.cuts = cuts, out.what = what;
   return out;
 }
+inline Answer intersect(const Node &solid, const V &o, const V &d) { return intersect(solid, Surfaces(solid), o, d); }
 
 // Is t the double nearest to r (ties to even)? Exact.
 inline bool nearest(double t, const Root &r) {

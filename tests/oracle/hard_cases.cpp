@@ -170,7 +170,7 @@ int main() {
         for (int e : {0, 40, -40, 333}) {
           V dd = pow2(e) * d;
           if (reverse) dd = Q(-1) * dd;
-          int right = judge(s, m, o, dd, ("case " + std::to_string(c.number)).c_str());
+          int right = judge(s, intersect(s, o, dd), m, o, dd, ("case " + std::to_string(c.number)).c_str());
           asked++, wrong += right == 0, unjudged += right < 0, seen[c.number]++;
         }
     }

@@ -36,6 +36,7 @@ int main(int argc, char **argv) {
     Node solid = make_solid(r, r.range(0, 3));
     solids++;
     Model m(solid.text);
+    Surfaces surfaces(solid);
     std::vector<const Leaf *> leaves;
     collect(solid, leaves);
     std::vector<const Spot *> spots;
@@ -80,11 +81,11 @@ int main(int argc, char **argv) {
       if (pick != 6 && r.chance(70)) p = p - Q(r.range(1, 50)) / Q(4) * d;
       Census &c = census[kind];
       c.asked++;
-      int right = judge(solid, m, p, d, kind);
+      Answer a = intersect(solid, surfaces, p, d);
+      int right = judge(solid, a, m, p, d, kind);
       if (right < 0) continue;
       c.judged++, judged++;
       wrong += !right;
-      Answer a = intersect(solid, p, d);
       c.events += (long)a.cuts.size(), c.touches += a.touches, c.ties += a.ties, c.empty += a.cuts.empty();
       c.on += std::count(a.what.begin(), a.what.end(), Answer::On);
       if (wrong >= 10) {

@@ -77,9 +77,8 @@ inline void print(const Said &s) {
   for (auto &i : s.boundary) fprintf(stderr, "  ON %.17g %.17g\n", i.from, i.to);
 }
 
-// 1 right, 0 wrong (said aloud), -1 not judged.
-inline int judge(const Node &solid, const Model &m, const V &o, const V &d, const char *kind) {
-  Answer a = intersect(solid, o, d);
+// 1 right, 0 wrong (said aloud), -1 not judged. a: the oracle's answer.
+inline int judge(const Node &solid, const Answer &a, const Model &m, const V &o, const V &d, const char *kind) {
   if (a.skipped) return -1;
   Said s = ask(m, o, d);
   if (s.status == QUOIN_OK && agrees(a, Answer::Inside, s.inside) && agrees(a, Answer::On, s.boundary)) return 1;

@@ -1,0 +1,159 @@
+// Hard rays: aimed at edges, rims, apexes, contacts, along faces and generators, exactly and a little beside; from near and from far.
+// A bundle is the ray's neighbours with it, as packets take them.
+#pragma once
+#include "grammar.hpp"
+
+namespace stress {
+struct Line { V o, d; int kind; };
+enum Aim { Tangent, NearTangent, Along, Parallel, At, TwoSpots, Far, Axis, Scaled, Random_, Aims };
+static const char *const AIMS[Aims] = {"tangent", "near-tangent", "along", "parallel", "at a spot", "two spots", "far", "axis", "scaled", "random"};
+
+inline V small_vector(Random &r) {
+  V v;
+  do v = {Q(r.range(-4, 4)), Q(r.range(-4, 4)), Q(r.range(-4, 4))};
+  while (zero(v));
+  return v;
+}
+// A positive multiple of v with decimal entries, where there is one with a small common denominator.
+inline bool clear(V &v) {
+  CGAL::Gmpz den(1);
+  for (auto &e : v) {
+    CGAL::Gmpz d = e.denominator();
+    den = CGAL::integral_division(den, CGAL::gcd(den, d)) * d;
+  }
+  if (den != 1 && mpz_sizeinbase(den.mpz(), 2) < 4000) v = Q(den) * v;
+  return !zero(v) && is_decimal(v[0]) && is_decimal(v[1]) && is_decimal(v[2]);
+}
+// Divides by a power of two so that the greatest entry is between 1 and 2: a direction of ordinary length.
+inline V shorter(const V &v) {
+  double m = 0;
+  for (auto &e : v) m = std::max(m, std::fabs(CGAL::to_double(e)));
+  if (!(m > 0) || !std::isfinite(m)) return v;
+  return pow2(-std::ilogb(m)) * v;
+}
+// The model's size about a leaf: for steps away from a spot.
+inline bool aim(Random &r, const std::vector<const Spot *> &spots, Line &out) {
+  if (spots.empty()) return false;
+  const Spot &s = *spots[(size_t)r.below((int)spots.size())];
+  V p = s.point, d;
+  int kind = r.below(Aims);
+  switch (kind) {
+  case Tangent:
+    if (zero(s.normal)) return false;
+    d = cross(s.normal, small_vector(r));
+    break;
+  case NearTangent: {
+    if (zero(s.normal)) return false;
+    d = cross(s.normal, small_vector(r));
+    V n = s.normal;
+    if (!clear(n)) return false;
+    p = p + (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(20, 60)) * shorter(n);
+    break;
+  }
+  case Along:
+    if (zero(s.along)) return false;
+    d = s.along;
+    break;
+  case Parallel:
+    if (zero(s.along)) return false;
+    d = s.along;
+    p = p + pow2(-r.range(0, 50)) * small_vector(r);
+    break;
+  case TwoSpots: d = spots[(size_t)r.below((int)spots.size())]->point - p; break;
+  case Axis: d = along_axis(r.below(3), r.chance(50) ? 1 : -1); break;
+  case Random_:
+    p = p + V{r.tenth(-50, 50), r.tenth(-50, 50), r.tenth(-50, 50)};
+    d = V{r.tenth(-50, 50), r.tenth(-50, 50), r.tenth(-50, 50)};
+    break;
+  default: d = small_vector(r);
+  }
+  if (zero(d) || !clear(d)) return false;
+  d = shorter(d);
+  if (kind == Far) {
+    p = p - pow2(r.range(10, 40)) * d;
+    if (r.chance(50)) p = p + pow2(-r.range(10, 60)) * small_vector(r);
+  } else if (kind == Scaled) {
+    d = pow2(r.range(-200, 200)) * d;
+  } else if (r.chance(70)) {
+    p = p - Q(r.range(1, 50)) / Q(4) * d;
+  }
+  out = {p, d, kind};
+  return is_decimal(p[0]) && is_decimal(p[1]) && is_decimal(p[2]);
+}
+
+// A ray of doubles.
+struct Ray { double o[3], d[3], from, to; };
+inline bool to_ray(const Line &l, Ray &r) {
+  bool any = false;
+  for (int i = 0; i < 3; i++) {
+    r.o[i] = CGAL::to_double(l.o[i]), r.d[i] = CGAL::to_double(l.d[i]);
+    if (!std::isfinite(r.o[i]) || !std::isfinite(r.d[i])) return false;
+    any |= r.d[i] != 0;
+  }
+  r.from = -INFINITY, r.to = INFINITY;
+  return any;
+}
+inline V origin(const Ray &r) { return {Q(r.o[0]), Q(r.o[1]), Q(r.o[2])}; }
+inline V direction(const Ray &r) { return {Q(r.d[0]), Q(r.d[1]), Q(r.d[2])}; }
+
+enum Bundle { Alone, Same, Sheet, Fan, Meet, Mixed, Grid, Bundles };
+static const char *const BUNDLES[Bundles] = {"alone", "same ray", "parallel", "from one place", "to one place", "mixed", "grid"};
+
+// The rays about a first one. n: how many.
+inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::vector<const Spot *> &spots, std::vector<Ray> &out) {
+  out.clear();
+  double size = std::max({std::fabs(first.d[0]), std::fabs(first.d[1]), std::fabs(first.d[2])});
+  double step = std::ldexp(size, -r.range(0, r.chance(50) ? 8 : 52)), u[3], v[3];
+  for (int i = 0; i < 3; i++) u[i] = r.range(-1, 1), v[i] = r.range(-1, 1);
+  if (r.chance(40)) { // across the direction
+    double c[3] = {first.d[1], first.d[2], first.d[0]};
+    for (int i = 0; i < 3; i++) {
+      int a = (i + 1) % 3, b = (i + 2) % 3;
+      u[i] = (first.d[a] * c[b] - first.d[b] * c[a]) / size / size;
+    }
+    for (int i = 0; i < 3; i++) {
+      int a = (i + 1) % 3, b = (i + 2) % 3;
+      v[i] = (first.d[a] * u[b] - first.d[b] * u[a]) / size;
+    }
+  }
+  size_t special = (size_t)r.below((int)n);
+  double t = std::ldexp((double)r.range(1, 64), -r.range(0, 4));
+  for (size_t k = 0; k < n; k++) {
+    Ray x = first;
+    double a = (double)r.range(-4, 4) * step, b = (double)r.range(-4, 4) * step;
+    if (kind == Grid) a = (double)((int)(k % 8) - 4) * step, b = (double)((int)(k / 8 % 8) - 4) * step;
+    if (k != special) {
+      switch (kind) {
+      case Sheet: case Grid:
+        for (int i = 0; i < 3; i++) x.o[i] += a * u[i] + b * v[i];
+        break;
+      case Fan:
+        for (int i = 0; i < 3; i++) x.d[i] += (a * u[i] + b * v[i]) / 8;
+        break;
+      case Meet: // through first's place at t, up to rounding
+        for (int i = 0; i < 3; i++) x.d[i] += (a * u[i] + b * v[i]) / 8, x.o[i] += t * (first.d[i] - x.d[i]);
+        break;
+      case Mixed: {
+        Line l;
+        Ray other;
+        if (aim(r, spots, l) && to_ray(l, other)) x = other;
+        break;
+      }
+      default: break;
+      }
+    }
+    if (x.d[0] == 0 && x.d[1] == 0 && x.d[2] == 0) x = first;
+    out.push_back(x);
+  }
+  int range = r.below(10);
+  for (auto &x : out) {
+    x.from = -INFINITY, x.to = INFINITY;
+    if (range < 3) x.from = 0;
+    else if (range == 3) x.from = std::ldexp((double)r.range(-64, 64), -2);
+    else if (range == 4) x.to = std::ldexp((double)r.range(-64, 64), -2);
+    else if (range == 5) {
+      x.from = std::ldexp((double)r.range(-64, 64), -2), x.to = x.from + std::ldexp((double)r.range(0, 64), -2);
+    }
+  }
+}
+} // namespace stress

@@ -1,0 +1,294 @@
+// Random models on purpose full of faces shared, tangencies, rims that meet, near misses by 2^-20 to 2^-120, extreme sizes and places.
+#pragma once
+#include "spec.hpp"
+
+namespace stress {
+// How a model's numbers are drawn. dyadic: integers times powers of two, so that hard rays are exactly doubles.
+struct Style { bool dyadic = true; };
+
+inline Spec leaf_spec(const Shape &s) {
+  Spec r;
+  r.shape = s;
+  return r;
+}
+inline Spec gate(Node::Op op, std::vector<Spec> kids) {
+  Spec r;
+  r.op = op, r.kids = std::move(kids);
+  return r;
+}
+inline Spec around(const Step &s, Spec k) {
+  k.steps.insert(k.steps.begin(), s);
+  return k;
+}
+inline Spec moved(const V &v, Spec k) {
+  Step s;
+  s.v = v;
+  return around(s, std::move(k));
+}
+inline V along_axis(int i, const Q &q) {
+  V v{0, 0, 0};
+  v[i] = q;
+  return v;
+}
+inline Q a_size(Random &r, const Style &s) {
+  static const int round[] = {1, 2, 2, 3, 4, 5, 5, 5, 10, 15, 25, 50};
+  return s.dyadic ? Q(round[r.below(12)]) : r.tenth(1, 50);
+}
+inline Q a_place(Random &r, const Style &s) { return s.dyadic ? Q(r.range(-6, 6)) : r.chance(60) ? Q(r.range(-3, 3)) : r.tenth(-60, 60); }
+// What is between two faces that nearly meet; mostly nothing.
+inline Q a_gap(Random &r) { return r.chance(60) ? Q(0) : (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(20, 120)); }
+inline Node::Op an_op(Random &r) { return (Node::Op)r.below(3); }
+
+inline Shape a_shape(Random &r, const Style &st) {
+  Shape s;
+  s.kind = (Shape::Kind)r.below(Shape::Kinds);
+  auto size = [&] { return a_size(r, st); };
+  switch (s.kind) {
+  case Shape::Sphere: s.p = {size()}; break;
+  case Shape::Cube: case Shape::Ellipsoid: case Shape::Wedge: case Shape::Elliptic: case Shape::Tetra: s.p = {size(), size(), size()}; break;
+  case Shape::Cylinder: case Shape::Paraboloid: case Shape::Prism: s.p = {size(), size()}; break;
+  case Shape::Frustum:
+    s.p = {size(), size(), size()};
+    if (r.chance(40)) s.p[1 + r.below(2)] = 0;
+    if (s.p[1] == s.p[2]) s.p[1] = s.p[1] + 1;
+    break;
+  case Shape::OneSheet: {
+    static const int t[][3] = {{5, 3, 4}, {5, 4, 3}, {13, 5, 12}, {25, 7, 24}, {10, 6, 8}};
+    auto &p = t[r.below(5)];
+    Q unit = st.dyadic ? Q(1) : Q(1) / 5;
+    s.p = {size(), unit * p[0], unit * p[1]};
+    if (r.chance(20)) s.p = {size(), s.p[2] + size(), s.p[2]};
+    break;
+  }
+  case Shape::TwoSheets: {
+    Q gap = size();
+    s.p = {gap + size(), size(), gap};
+    break;
+  }
+  case Shape::Saddle: s.p = {pow2(r.range(-2, 2)), pow2(r.range(-2, 2))}; break;
+  case Shape::HalfSpace:
+    s.p = {Q(r.range(-3, 3)), Q(r.range(-3, 3)), Q(r.range(-3, 3)), a_place(r, st)};
+    if (s.p[0] == 0 && s.p[1] == 0 && s.p[2] == 0) s.p[r.below(3)] = 1;
+    break;
+  default: {
+    bool any = false;
+    do {
+      s.p.clear();
+      for (int i = 0; i < 10; i++) s.p.push_back(Q(r.chance(40) ? 0 : r.range(-2, 2)));
+      any = false;
+      for (int i = 0; i < 9; i++) any |= s.p[i] != 0;
+    } while (!any);
+    if (r.chance(50)) s.p[9] = 0;
+  }
+  }
+  bool centred = s.kind == Shape::Cube || s.kind == Shape::Cylinder || s.kind == Shape::Frustum || s.kind == Shape::Wedge;
+  s.center = centred && r.chance(40);
+  bool round = s.kind == Shape::Sphere || s.kind == Shape::Cylinder || s.kind == Shape::Frustum || s.kind == Shape::Paraboloid || s.kind == Shape::OneSheet || s.kind == Shape::TwoSheets;
+  if (round && !s.center && r.chance(15)) {
+    s.placed = true;
+    s.base = {a_place(r, st), a_place(r, st), a_place(r, st)};
+    s.stretch = r.chance(50) ? Q(1) : Q(r.range(1, 25));
+    if (r.chance(50)) s.unit = along_axis(r.below(3), r.chance(50) ? 1 : -1);
+    else s.unit = on_sphere(r);
+  }
+  return s;
+}
+
+inline Step a_turn(Random &r) {
+  Step s;
+  if (r.chance(50)) {
+    s.kind = Step::Quarters;
+    s.v = along_axis(r.below(3), r.range(1, 3));
+    if (r.chance(20)) s.v = {Q(r.below(4)), Q(r.below(4)), Q(r.below(4))};
+    return s;
+  }
+  s.kind = Step::Matrix;
+  auto c = circle(r);
+  int i = r.below(3), j = (i + 1) % 3;
+  s.map.m[i][i] = s.map.m[j][j] = c[0], s.map.m[i][j] = -c[1], s.map.m[j][i] = c[1];
+  return s;
+}
+inline Step a_step(Random &r, const Style &st) {
+  Step s;
+  switch (r.below(6)) {
+  case 0: case 1: case 2: s.v = {a_place(r, st), a_place(r, st), a_place(r, st)}; break;
+  case 3: return a_turn(r);
+  case 4:
+    s.kind = Step::Scale;
+    s.v = {Q(1), Q(1), Q(1)};
+    for (auto &e : s.v) e = st.dyadic ? pow2(r.range(-2, 2)) : r.tenth(1, 30);
+    if (r.chance(30)) s.v = {s.v[0], s.v[0], s.v[0]};
+    if (r.chance(20)) s.v[r.below(3)] *= -1;
+    break;
+  default: {
+    s.kind = Step::Matrix;
+    int i = r.below(3), j = (i + 1 + r.below(2)) % 3;
+    s.map.m[i][j] = st.dyadic ? Q(r.range(-4, 4)) / 2 : r.tenth(-20, 20);
+  }
+  }
+  return s;
+}
+inline Spec a_leaf(Random &r, const Style &st) {
+  Spec s = leaf_spec(a_shape(r, st));
+  if (r.chance(70)) s.steps.push_back(a_step(r, st));
+  if (r.chance(15)) s.steps.push_back(a_step(r, st));
+  return s;
+}
+inline Spec simple(Shape::Kind k, std::vector<Q> p, bool center = false) {
+  Shape s;
+  s.kind = k, s.p = std::move(p), s.center = center;
+  return leaf_spec(s);
+}
+
+// Coincidences made on purpose, of about n leaves.
+inline Spec a_motif(Random &r, const Style &st, int n) {
+  Q a = a_size(r, st), b = a_size(r, st), c = a_size(r, st);
+  switch (r.below(10)) {
+  case 0: { // flush cuts
+    std::vector<Spec> k{simple(Shape::Cube, {a + b, b + c, c})};
+    for (int i = 1; i < std::max(2, n); i++) {
+      Spec cut = r.chance(50) ? simple(Shape::Cylinder, {c, a / 2}) : simple(Shape::Cube, {a, b, c});
+      k.push_back(moved({a_place(r, st), a_place(r, st), a_gap(r)}, cut));
+    }
+    return gate(r.chance(70) ? Node::Difference : an_op(r), k);
+  }
+  case 1: { // stacked along z
+    std::vector<Spec> k;
+    Q z = 0;
+    for (int i = 0; i < std::max(2, n); i++) {
+      Q h = a_size(r, st), rad = r.chance(50) ? a : a_size(r, st);
+      Spec s = r.chance(60) ? simple(Shape::Cylinder, {h, rad}) : r.chance(50) ? simple(Shape::Frustum, {h, rad, rad + 1}) : simple(Shape::Cube, {rad, rad, h});
+      k.push_back(moved({0, 0, z}, s));
+      z = z + h + a_gap(r);
+    }
+    return gate(an_op(r), k);
+  }
+  case 2: { // inscribed
+    std::vector<Spec> k;
+    Q two(2);
+    Spec box = simple(Shape::Cube, {two * a, two * a, two * a}, true), ball = simple(Shape::Sphere, {a}), rod = simple(Shape::Cylinder, {two * a, a}, true);
+    Spec all[3] = {box, ball, rod};
+    k.push_back(all[r.below(3)]);
+    for (int i = 1; i < std::min(std::max(2, n), 6); i++) k.push_back(moved(along_axis(r.below(3), a_gap(r)), all[r.below(3)]));
+    return gate(an_op(r), k);
+  }
+  case 3: { // coaxial solids that meet in circles
+    std::vector<Spec> k{simple(Shape::Frustum, {Q(3), Q(4), Q(1)})};
+    k.push_back(simple(Shape::Sphere, {Q(5)}));
+    k.back() = moved({0, 0, -3}, k.back()); // through the rim of radius 4 at z = 0
+    k.push_back(moved({0, 0, 3 + a_gap(r)}, simple(Shape::Frustum, {a, Q(1), b + 1})));
+    k.push_back(moved({0, 0, -3}, simple(Shape::Cylinder, {Q(3), Q(4)})));
+    k.push_back(moved({0, 0, -5}, simple(Shape::Paraboloid, {Q(5), Q(4)})));
+    for (int i = (int)k.size(); i > 2 && i > n; i--) k.erase(k.begin() + r.below((int)k.size()));
+    if (r.chance(50)) std::reverse(k.begin(), k.end());
+    Spec s = gate(an_op(r), k);
+    if (!st.dyadic) {
+      Step f;
+      f.kind = Step::Scale, f.v = {Q(1) / 10, Q(1) / 10, Q(1) / 10};
+      s = around(f, s);
+    }
+    return s;
+  }
+  case 4: { // minus its own copy, moved along an axis by an exact step
+    Spec s = a_leaf(r, st);
+    std::vector<Spec> k{s};
+    Q step = r.chance(20) ? Q(0) : a_size(r, st);
+    int axis = r.below(3);
+    for (int i = 1; i < std::min(std::max(2, n), 20); i++) k.push_back(moved(along_axis(axis, Q(i) * step + a_gap(r)), s));
+    return gate(r.chance(60) ? Node::Difference : an_op(r), k);
+  }
+  case 5: { // turned about a common axis
+    Spec s = a_leaf(r, st);
+    std::vector<Spec> k{s};
+    Step t = a_turn(r);
+    Spec u = s;
+    for (int i = 1; i < std::min(std::max(2, n), 5); i++) k.push_back(u = around(t, u));
+    return gate(an_op(r), k);
+  }
+  case 6: { // a lattice of touching or overlapping solids
+    std::vector<Spec> k;
+    Spec s = r.chance(40) ? simple(Shape::Cube, {a, a, a}) : r.chance(50) ? simple(Shape::Sphere, {r.chance(50) ? a / 2 : a}) : simple(Shape::Cylinder, {a, a / 2});
+    int side = std::max(2, (int)std::sqrt((double)n));
+    for (int i = 0; i < side; i++)
+      for (int j = 0; j < std::max(1, n / side); j++) k.push_back(moved({Q(i) * a, Q(j) * a, r.chance(90) ? Q(0) : a_gap(r)}, s));
+    Spec all = gate(Node::Union, k);
+    return r.chance(50) ? all : gate(Node::Difference, {moved({-a, -a, 0}, simple(Shape::Cube, {Q(side + 2) * a, Q(side + 2) * a, a})), all});
+  }
+  case 7: { // thin shells
+    Q g = pow2(-r.range(20, 120));
+    Shape::Kind kind = r.chance(50) ? Shape::Sphere : r.chance(50) ? Shape::Cylinder : Shape::Cube;
+    auto make = [&](const Q &w) { return kind == Shape::Sphere ? simple(kind, {a + w}) : kind == Shape::Cylinder ? simple(kind, {b + 2 * w, a + w}, true) : simple(kind, {a + w, b + w, c + w}, true); };
+    std::vector<Spec> k{make(g), make(0)};
+    for (int i = 2; i < std::min(n, 5); i++) k.push_back(make(Q(-i) * g));
+    return gate(r.chance(70) ? Node::Difference : an_op(r), k);
+  }
+  case 8: { // balls and rods that touch, in a rational direction
+    V u = on_sphere(r);
+    bool inner = r.chance(30);
+    Q far = inner ? a - b : a + b;
+    std::vector<Spec> k{simple(Shape::Sphere, {a}), moved((far + a_gap(r)) * u, simple(Shape::Sphere, {b}))};
+    if (n > 2) k.push_back(moved(V{a + c, 0, -c}, simple(Shape::Cylinder, {2 * c, c})));
+    if (n > 3) k.push_back(moved(V{-a - b, 0, 0}, simple(Shape::Sphere, {b})));
+    return gate(an_op(r), k);
+  }
+  default: { // a box and a round solid with a common generator or circle: all tangent along lines
+    std::vector<Spec> k{moved({-a, -a, 0}, simple(Shape::Cube, {2 * a, 2 * a, b})), simple(Shape::Cylinder, {b, a})};
+    if (n > 2) k.push_back(moved({2 * a + a_gap(r), 0, 0}, simple(Shape::Cylinder, {b, a})));
+    if (n > 3) k.push_back(moved({0, 0, b}, simple(Shape::Sphere, {a})));
+    return gate(an_op(r), k);
+  }
+  }
+}
+
+inline Spec a_solid(Random &r, const Style &st, int n, int depth) {
+  if (n <= 1) return a_leaf(r, st);
+  Spec s;
+  if (r.chance(n <= 6 ? 50 : 25)) s = a_motif(r, st, std::min(n, 30));
+  else if (depth <= 1) {
+    std::vector<Spec> k;
+    for (int i = 0; i < n; i++) k.push_back(a_leaf(r, st));
+    s = gate(r.chance(70) ? Node::Union : an_op(r), k);
+  } else if (n > 3 && r.chance(12)) { // a chain
+    s = a_solid(r, st, n - 1, depth - 1);
+    s = gate(an_op(r), r.chance(70) ? std::vector<Spec>{s, a_leaf(r, st)} : std::vector<Spec>{a_leaf(r, st), s});
+  } else if (r.chance(15)) { // the same again, moved or turned or not
+    Spec k = a_solid(r, st, n / 2, depth - 1), again = k;
+    if (r.chance(80)) again = r.chance(60) ? moved(along_axis(r.below(3), a_size(r, st) + a_gap(r)), k) : around(a_turn(r), k);
+    s = gate(an_op(r), r.chance(50) ? std::vector<Spec>{k, again} : std::vector<Spec>{again, k});
+  } else {
+    std::vector<Spec> k;
+    int parts = r.range(2, std::min(4, n));
+    for (int i = 0; i < parts; i++) k.push_back(a_solid(r, st, std::max(1, n / parts), depth - 1));
+    s = gate(r.chance(45) ? Node::Union : r.chance(65) ? Node::Difference : Node::Intersection, k);
+  }
+  if (r.chance(25)) s = around(a_step(r, st), s);
+  return s;
+}
+
+// What the whole stands in: sizes 1e-9 to 1e9, places to 1e12, aspect to 1e9.
+inline Spec in_frame(Random &r, const Style &st, Spec s) {
+  auto scale = [&](const V &v) {
+    Step f;
+    f.kind = Step::Scale, f.v = v;
+    s = around(f, s);
+  };
+  auto power = [&](int ten) { return st.dyadic ? pow2(ten * 10 / 3) : pow10(ten); };
+  switch (r.below(12)) {
+  case 0: { Q f = power(r.range(-9, 9)); scale({f, f, f}); break; }
+  case 1: { V v{1, 1, 1}; v[r.below(3)] = power(-r.range(1, 9)); scale(v); break; }
+  case 2: { V v{1, 1, 1}; v[r.below(3)] = power(r.range(1, 9)); scale(v); break; }
+  case 3: { V v{Q(r.range(-1, 1)), Q(r.range(-1, 1)), Q(r.range(-1, 1))}; s = moved(power(r.range(2, 12)) * v, s); break; }
+  case 4: { Q f = power(r.range(-9, 3)); scale({f, f, f}); s = moved(along_axis(r.below(3), power(r.range(0, 9))), s); break; }
+  case 5: s = around(a_turn(r), s); break;
+  case 6: s = around(a_step(r, st), around(a_turn(r), s)); break;
+  default: break;
+  }
+  return s;
+}
+inline Spec a_model(Random &r, const Style &st, int most) {
+  int pick = r.below(100);
+  int n = pick < 55 ? r.range(1, 5) : pick < 80 ? r.range(6, 16) : pick < 94 ? r.range(17, 50) : r.range(51, 200);
+  Spec s = a_solid(r, st, std::min(n, most), r.range(2, 12));
+  return in_frame(r, st, s);
+}
+} // namespace stress

@@ -1,0 +1,226 @@
+// What quoin says of a ray or a point, asked in every way there is, against what it must say: the quick judge where it is certain, else
+// CGAL's exact numbers.
+#pragma once
+#include "aim.hpp"
+#include "quick.hpp"
+#include "../oracle/judge.hpp"
+
+namespace stress {
+using oracle::Model; // the scene asked; from here on the name is this one
+
+struct End { double t; bool part; };
+struct Piece { End enter, leave; };
+struct Answer2 {
+  quoin_status status = QUOIN_OK;
+  std::vector<Piece> inside, boundary;
+};
+inline Answer2 copy(const quoin_intervals &a) {
+  Answer2 r;
+  auto end = [](const quoin_end &e) { return End{e.t, e.part != QUOIN_NO_PART}; };
+  for (size_t i = 0; i < a.count; i++) r.inside.push_back({end(a.inside[i].enter), end(a.inside[i].leave)});
+  for (size_t i = 0; i < a.boundary_count; i++) r.boundary.push_back({end(a.boundary[i].enter), end(a.boundary[i].leave)});
+  return r;
+}
+inline quoin_ray plain(const Ray &r) { return {{r.o[0], r.o[1], r.o[2]}, {r.d[0], r.d[1], r.d[2]}, r.from, r.to}; }
+
+// How a ray is asked.
+enum Way { One, Many, ManyBoundary, Hits, Hit, Text, Ways };
+static const char *const WAYS[Ways] = {"quoin_ray_intervals", "quoin_ray_intervals_many", "quoin_ray_intervals_many with boundary", "quoin_first_hits", "quoin_first_hit", "quoin_ray_intervals_text"};
+inline bool is_hit(int way) { return way == Hits || way == Hit; }
+struct Reply { Answer2 answer; quoin_hit hit{}; };
+
+inline std::vector<Reply> ask_rays(const Model &m, const std::vector<Ray> &rays, int way) {
+  std::vector<Reply> out(rays.size());
+  std::vector<quoin_ray> q;
+  for (auto &r : rays) q.push_back(plain(r));
+  if (way == Many || way == ManyBoundary) {
+    quoin_status s = quoin_ray_intervals_many(m.scene, m.work, q.size(), q.data(), way == ManyBoundary ? QUOIN_WANT_BOUNDARY : 0,
+      [](void *user, size_t i, const quoin_intervals *a) {
+        (*(std::vector<Reply> *)user)[i].answer = copy(*a);
+        return 0;
+      }, &out);
+    if (s != QUOIN_OK)
+      for (auto &o : out) o.answer.status = s;
+  } else if (way == Hits) {
+    std::vector<quoin_hit> hits(rays.size());
+    quoin_status s = quoin_first_hits(m.scene, m.work, q.size(), q.data(), hits.data());
+    for (size_t i = 0; i < out.size(); i++) out[i].hit = hits[i], out[i].answer.status = s;
+  } else {
+    for (size_t i = 0; i < q.size(); i++) {
+      if (way == Hit) out[i].answer.status = quoin_first_hit(m.scene, m.work, &q[i], &out[i].hit);
+      else {
+        quoin_intervals a;
+        quoin_status s;
+        if (way == Text) {
+          std::string t[8];
+          const char *p[6];
+          for (int k = 0; k < 6; k++) t[k] = decimal(Q(k < 3 ? q[i].o[k] : q[i].d[k - 3])), p[k] = t[k].c_str();
+          if (std::isfinite(q[i].from)) t[6] = decimal(Q(q[i].from));
+          if (std::isfinite(q[i].to)) t[7] = decimal(Q(q[i].to));
+          s = quoin_ray_intervals_text(m.scene, m.work, p, std::isfinite(q[i].from) ? t[6].c_str() : nullptr, std::isfinite(q[i].to) ? t[7].c_str() : nullptr, QUOIN_WANT_BOUNDARY, &a);
+        } else s = quoin_ray_intervals(m.scene, m.work, &q[i], QUOIN_WANT_BOUNDARY, &a);
+        if (s == QUOIN_OK) out[i].answer = copy(a);
+        out[i].answer.status = s;
+      }
+    }
+  }
+  return out;
+}
+
+enum Verdict { Wrong = 0, Right = 1, Unknown = 2, Unjudged = 3 };
+
+// Stretches of one kind that must be said, over ends of type E (compare: e against a double, 2 not known; nearest likewise).
+template <class E, class Compare, class Nearest>
+Verdict check(const std::vector<std::pair<const E *, const E *>> &truth, const Ray &ray, const std::vector<Piece> &said, Compare compare, Nearest nearest, size_t &rounded) {
+  Verdict v = Right;
+  size_t k = 0;
+  for (auto &s : truth) { // null: infinite
+    int lo = s.first ? compare(*s.first, ray.from) : -1, hi = s.second ? compare(*s.second, ray.to) : 1;
+    int gone1 = s.second ? compare(*s.second, ray.from) : 1, gone2 = s.first ? compare(*s.first, ray.to) : -1;
+    if (lo == 2 || hi == 2 || gone1 == 2 || gone2 == 2) return Unknown;
+    if (gone1 <= 0 || gone2 >= 0 || ray.from == ray.to) continue;
+    if (k == said.size()) return Wrong;
+    const Piece &p = said[k++];
+    auto end = [&](const End &e, const E *root, double cut) { // root: null when the range or infinity makes the end
+      if (!root) {
+        if (e.t != cut || e.part) v = Wrong;
+        return;
+      }
+      int n = nearest(e.t, *root);
+      rounded += n == 1;
+      if (n == 0 || !e.part) v = Wrong;
+      if (n == 2 && v == Right) v = Unknown;
+    };
+    end(p.enter, s.first && lo >= 0 ? s.first : nullptr, ray.from);
+    end(p.leave, s.second && hi <= 0 ? s.second : nullptr, ray.to);
+  }
+  return k == said.size() ? v : Wrong;
+}
+template <class E, class Compare, class Nearest>
+Verdict check_hit(const std::vector<std::pair<const E *, const E *>> &truth, const Ray &ray, const quoin_hit &hit, Compare compare, Nearest nearest, size_t &rounded) {
+  for (auto &s : truth) {
+    int lo = s.first ? compare(*s.first, ray.from) : -1, hi = s.second ? compare(*s.second, ray.to) : 1;
+    int gone1 = s.second ? compare(*s.second, ray.from) : 1, gone2 = s.first ? compare(*s.first, ray.to) : -1;
+    if (lo == 2 || hi == 2 || gone1 == 2 || gone2 == 2) return Unknown;
+    if (gone1 <= 0 || gone2 >= 0 || ray.from == ray.to) continue;
+    const E *e = s.first && lo >= 0 ? s.first : s.second && hi <= 0 ? s.second : nullptr;
+    if (!e) return hit.found ? Wrong : Right;
+    if (!hit.found || (hit.leaving != 0) != (e == s.second)) return Wrong;
+    int n = nearest(hit.t, *e);
+    rounded += n == 1;
+    return n == 0 ? Wrong : n == 1 ? Right : Unknown;
+  }
+  return hit.found ? Wrong : Right;
+}
+
+struct Bench { // one model and its judges
+  Spec spec;
+  std::string text;
+  std::vector<Ball> balls;
+  Node solid;
+  Surfaces surfaces;
+  Quick quick;
+  Model model;
+  std::vector<const Spot *> spots;
+  static Node build(const Spec &s, uint64_t seed, std::vector<Ball> &b) {
+    Random r(seed);
+    return node_of(s, Map(), r, b);
+  }
+  Bench(const Spec &s, uint64_t seed) : spec(s), text(text_of(s)), solid(build(s, seed, balls)), surfaces(solid), quick(solid, balls), model(text) {
+    std::vector<const Leaf *> leaves;
+    collect(solid, leaves);
+    for (auto *l : leaves)
+      for (auto &p : l->spots) spots.push_back(&p);
+  }
+  Bench(const Bench &) = delete;
+
+  Quick::Found found;
+  bool known = false;
+  std::vector<std::pair<const Num *, const Num *>> quick_inside;
+  // Prepares the quick judge for a ray; then judge_quick may be asked for several replies.
+  void aim_quick(const Ray &ray) {
+    known = quick.shoot(ray.o, ray.d, found);
+    quick_inside.clear();
+    for (size_t i = 0; known && i < found.in.size(); i++)
+      if (found.in[i]) quick_inside.push_back({i ? &found.cuts[i - 1].t : nullptr, i < found.cuts.size() ? &found.cuts[i].t : nullptr});
+  }
+  Verdict judge_quick(const Ray &ray, const Reply &reply, int way, size_t &rounded) const {
+    if (!known) return Unknown;
+    if (reply.answer.status != QUOIN_OK) return Wrong;
+    auto compare = [](const Num &n, double t) {
+      if (std::isinf(t)) return t > 0 ? -1 : 1;
+      Wide gap = n.v - (Wide)t;
+      return gap > n.e ? 1 : -gap > n.e ? -1 : none(Num{gap, n.e}) ? 0 : 2;
+    };
+    auto nearest = [](double t, const Num &n) { return nearest_quick(t, n); };
+    if (is_hit(way)) return check_hit<Num>(quick_inside, ray, reply.hit, compare, nearest, rounded);
+    if (way != Many && !reply.answer.boundary.empty()) return Wrong;
+    return check<Num>(quick_inside, ray, reply.answer.inside, compare, nearest, rounded);
+  }
+  Answer exact_answer;
+  void aim_exact(const Ray &ray) { exact_answer = intersect(solid, surfaces, origin(ray), direction(ray)); }
+  Verdict judge_exact(const Ray &ray, const Reply &reply, int way, size_t &rounded) const {
+    const Answer &a = exact_answer;
+    if (a.skipped) return Unjudged;
+    if (reply.answer.status != QUOIN_OK) return Wrong;
+    auto compare = [](const Root &n, double t) {
+      if (std::isinf(t)) return t > 0 ? -1 : 1;
+      return (int)CGAL::compare(n, Root(Q(t)));
+    };
+    auto nearest_ = [](double t, const Root &n) {
+      if (std::isinf(t)) { // beyond the largest double, with the halfway point going to even
+        Root most((Q(0x1.fffffffffffffp+1023) + pow2(970)) * Q(t > 0 ? 1 : -1));
+        return (int)(t > 0 ? n >= most : n <= most);
+      }
+      if (std::fabs(t) == 0x1.fffffffffffffp+1023) return 2;
+      return (int)nearest(t, n);
+    };
+    std::vector<std::pair<const Root *, const Root *>> in, on;
+    for (size_t i = 0; i < a.what.size(); i++)
+      if (a.what[i] != Answer::Outside)
+        (a.what[i] == Answer::Inside ? in : on).push_back({i ? &a.cuts[i - 1] : nullptr, i < a.cuts.size() ? &a.cuts[i] : nullptr});
+    if (is_hit(way)) return check_hit<Root>(in, ray, reply.hit, compare, nearest_, rounded);
+    Verdict v = check<Root>(in, ray, reply.answer.inside, compare, nearest_, rounded);
+    if (v != Right || way == Many) return v;
+    return check<Root>(on, ray, reply.answer.boundary, compare, nearest_, rounded);
+  }
+
+  // The side a point must have: the tree on every combination of sides of the surfaces through it, when these are at most three with
+  // independent gradients; -1 otherwise.
+  int side(const V &p) const {
+    std::vector<const Leaf *> leaves;
+    collect(solid, leaves);
+    std::vector<Cursor> cursors;
+    std::vector<const Quadric *> through;
+    for (auto *l : leaves)
+      for (auto &q : l->halves) {
+        Cursor c;
+        c.sign = CGAL::sign(q(p));
+        if (c.sign == 0) {
+          size_t g = 0;
+          while (g < through.size() && !proportional(*through[g], q)) g++;
+          if (g == through.size()) through.push_back(&q);
+          c.group = (int)g, c.sign = 1;
+          for (int i = 0; i < 16; i++)
+            if (q.a[i / 4][i % 4] != 0) {
+              c.sign = CGAL::sign(q.a[i / 4][i % 4]) * CGAL::sign(through[g]->a[i / 4][i % 4]);
+              break;
+            }
+        }
+        cursors.push_back(c);
+      }
+    if (through.size() > 3) return -1;
+    std::vector<V> g;
+    for (auto *q : through) g.push_back(q->gradient(p));
+    if (g.size() == 1 && zero(g[0])) return -1;
+    if (g.size() == 2 && zero(cross(g[0], g[1]))) return -1;
+    if (g.size() == 3 && dot(g[0], cross(g[1], g[2])) == 0) return -1;
+    unsigned in = 0, n = 1u << through.size();
+    for (unsigned k = 0; k < n; k++) {
+      size_t at = 0;
+      in += evaluate(solid, cursors, at, k);
+    }
+    return in == 0 ? QUOIN_OUTSIDE : in == n ? QUOIN_INSIDE : QUOIN_BOUNDARY;
+  }
+};
+} // namespace stress

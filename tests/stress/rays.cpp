@@ -1,0 +1,184 @@
+// Numerical stress: random hard models, bundles of hard rays asked in every way there is, every answer judged. Prints one line, with its
+// seed, that tools/stress adds up; a wrong answer is made small and written to a file.
+//
+// Usage: stress_rays [--seed S] [--seconds T | --models N] [--leaves N] [--share PERMILLE] [--finds DIR] [--census] [--again MODELSEED]
+#include "shrink.hpp"
+
+using namespace stress;
+
+struct Totals {
+  unsigned long long models = 0, leaves = 0, rays = 0, quick = 0, exact = 0, unjudged = 0, ends = 0, points = 0, wrong = 0, refused = 0;
+  unsigned long long by_aim[Aims] = {0}, by_bundle[Bundles] = {0}, by_way[Ways] = {0}, found[4] = {0}, sides[3] = {0};
+  double asking = 0, quickly = 0, exactly = 0;
+};
+struct Options {
+  uint64_t seed = 1;
+  double seconds = 5;
+  long models = 0;
+  int leaves = 200, share = 5;
+  std::string finds = ".";
+  bool census = false, once = false;
+};
+
+static void found(Totals &t, const Options &o, Case c, uint64_t model_seed, const char *what) {
+  t.wrong++;
+  std::string again = "stress_rays --leaves " + std::to_string(o.leaves) + " --again " + std::to_string(model_seed);
+  fprintf(stderr, "WRONG: %s, %s (%s)\n", what, WAYS[c.way], again.c_str());
+  if (t.wrong <= 3) {
+    shrink(c, 40);
+    std::string path = o.finds + "/rays_" + std::to_string(model_seed) + ".csg", text = report(c, what, again);
+    FILE *f = fopen(path.c_str(), "w");
+    if (f) fputs(text.c_str(), f), fclose(f);
+    fprintf(stderr, "%s\n%s\n", path.c_str(), text.c_str());
+  }
+}
+
+static void one_model(uint64_t seed, const Options &o, Totals &t) {
+  Random r(seed);
+  Style st;
+  st.dyadic = r.chance(60);
+  Spec spec = a_model(r, st, o.leaves);
+  uint64_t spots_seed = r.next();
+  std::unique_ptr<Bench> b;
+  try {
+    b.reset(new Bench(spec, spots_seed));
+  } catch (const std::exception &e) {
+    t.refused++;
+    if (t.refused < 3) fprintf(stderr, "refused (%s): --again %llu\n", e.what(), (unsigned long long)seed);
+    return;
+  }
+  t.models++, t.leaves += leaves_of(spec);
+  std::vector<Ray> rays;
+  int bundles = r.range(4, 12);
+  for (int k = 0; k < bundles; k++) {
+    Line line;
+    Ray first;
+    if (!aim(r, b->spots, line) || !to_ray(line, first)) continue;
+    int kind = r.below(Bundles), way = r.below(100);
+    way = way < 20 ? One : way < 50 ? Many : way < 65 ? ManyBoundary : way < 85 ? Hits : way < 92 ? Hit : Text;
+    size_t n = kind == Alone ? 1 : way == Text ? 4 : (size_t)(r.chance(50) ? 64 : r.chance(50) ? r.range(1, 63) : r.range(65, 140));
+    bundle(r, first, kind, n, b->spots, rays);
+    double t0 = now();
+    auto replies = ask_rays(b->model, rays, way);
+    t.asking += now() - t0;
+    t.by_bundle[kind] += n, t.by_way[way] += n, t.by_aim[line.kind] += n;
+    for (size_t i = 0; i < n; i++) {
+      size_t ends = 0;
+      t.rays++;
+      double t1 = now();
+      b->aim_quick(rays[i]);
+      Verdict v = b->judge_quick(rays[i], replies[i], way, ends);
+      t.quickly += now() - t1;
+      if (v == Right) {
+        t.quick++, t.ends += ends;
+        if (r.below(1000) >= o.share) continue;
+      }
+      ends = 0;
+      double t2 = now();
+      b->aim_exact(rays[i]);
+      Verdict e = b->judge_exact(rays[i], replies[i], way, ends);
+      t.exactly += now() - t2;
+      if (e == Unjudged || e == Unknown) {
+        t.unjudged += v != Right;
+        if (v == Wrong) {
+          fprintf(stderr, "the judges disagree: quick says wrong, exact does not judge: --again %llu\n", (unsigned long long)seed);
+          t.wrong++;
+        }
+        continue;
+      }
+      if ((v == Wrong) != (e == Wrong) && v != Unknown) fprintf(stderr, "the judges disagree: --again %llu\n", (unsigned long long)seed), t.wrong++;
+      if (v != Right) t.exact++, t.ends += ends;
+      if (e == Wrong) {
+        Case c{spec, rays, way, spots_seed};
+        found(t, o, c, seed, "wrong ray");
+        return;
+      }
+    }
+  }
+  // Points: the spots themselves and places by them.
+  for (int k = 0; k < 12 && !b->spots.empty(); k++) {
+    V p = b->spots[(size_t)r.below((int)b->spots.size())]->point;
+    if (!is_decimal(p[0]) || !is_decimal(p[1]) || !is_decimal(p[2])) continue;
+    if (r.chance(40)) p[(size_t)r.below(3)] += (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(1, 120));
+    bool text = r.chance(50);
+    double x[3];
+    for (int i = 0; i < 3; i++) {
+      x[i] = CGAL::to_double(p[(size_t)i]);
+      if (!text) p[(size_t)i] = Q(x[i]);
+    }
+    int should = b->side(p);
+    if (should < 0) continue;
+    quoin_side said = QUOIN_OUTSIDE;
+    quoin_status s;
+    std::string d[3];
+    const char *c[3];
+    for (int i = 0; i < 3; i++) d[i] = decimal(p[(size_t)i]), c[i] = d[i].c_str();
+    if (text) s = quoin_point_side_text(b->model.scene, b->model.work, c, &said);
+    else {
+      double many[8 * 3];
+      quoin_side sides[8];
+      size_t n = r.chance(50) ? 1 : 8;
+      for (size_t i = 0; i < n * 3; i++) many[i] = x[i % 3];
+      for (size_t i = 3; i < n * 3; i++) many[i] += std::ldexp((double)r.range(-2, 2), -r.range(0, 60));
+      s = quoin_point_sides(b->model.scene, b->model.work, n, many, sides);
+      said = sides[0];
+    }
+    t.points++, t.sides[should]++;
+    if (s != QUOIN_OK || said != should) {
+      t.wrong++;
+      std::string path = o.finds + "/point_" + std::to_string(seed) + ".csg";
+      FILE *f = fopen(path.c_str(), "w");
+      if (f) {
+        fprintf(f, "// wrong side of a point: %d, should be %d, status %s\n// point %s %s %s (%s)\n// again: stress_rays --again %llu\n%s", said, should, quoin_status_text(s), c[0], c[1], c[2],
+                text ? "as decimals" : "as doubles", (unsigned long long)seed, b->text.c_str());
+        fclose(f);
+      }
+      fprintf(stderr, "WRONG side of a point: %s\n", path.c_str());
+      return;
+    }
+  }
+}
+
+int main(int argc, char **argv) {
+  Options o;
+  uint64_t again = 0;
+  for (int i = 1; i < argc; i++) {
+    std::string a = argv[i];
+    auto value = [&]() -> const char * {
+      if (i + 1 >= argc) fprintf(stderr, "a value is missing after %s\n", a.c_str()), exit(2);
+      return argv[++i];
+    };
+    if (a == "--seed") o.seed = strtoull(value(), nullptr, 10);
+    else if (a == "--seconds") o.seconds = atof(value());
+    else if (a == "--models") o.models = atol(value());
+    else if (a == "--leaves") o.leaves = atoi(value());
+    else if (a == "--share") o.share = atoi(value());
+    else if (a == "--finds") o.finds = value();
+    else if (a == "--census") o.census = true;
+    else if (a == "--again") again = strtoull(value(), nullptr, 10), o.once = true;
+    else return fprintf(stderr, "unknown option %s\n", a.c_str()), 2;
+  }
+  Totals t;
+  if (o.once) {
+    one_model(again, o, t);
+    fprintf(stderr, "%llu rays, %llu wrong\n", t.rays, t.wrong);
+    return t.wrong != 0;
+  }
+  Random seeds(o.seed * 0x9E3779B97F4A7C15u + 1);
+  double begin = now();
+  for (long k = 0; o.models ? k < o.models : now() - begin < o.seconds; k++) {
+    one_model(seeds.next(), o, t);
+    if (t.wrong >= 10) break;
+  }
+  double all = now() - begin;
+  printf("rays seed=%llu seconds=%.1f models=%llu leaves=%llu rays=%llu quick=%llu exact=%llu unjudged=%llu ends=%llu points=%llu refused=%llu wrong=%llu\n", (unsigned long long)o.seed, all,
+         t.models, t.leaves, t.rays, t.quick, t.exact, t.unjudged, t.ends, t.points, t.refused, t.wrong);
+  if (o.census) {
+    printf("time: asking %.1f s, quick judge %.1f s, exact judge %.1f s; %.0f models and %.0f rays a second\n", t.asking, t.quickly, t.exactly, t.models / all, t.rays / all);
+    for (int i = 0; i < Aims; i++) printf("%s%s %llu", i ? ", " : "aimed: ", AIMS[i], t.by_aim[i]);
+    for (int i = 0; i < Bundles; i++) printf("%s%s %llu", i ? ", " : "\nbundles: ", BUNDLES[i], t.by_bundle[i]);
+    for (int i = 0; i < Ways; i++) printf("%s%s %llu", i ? ", " : "\nasked by: ", WAYS[i], t.by_way[i]);
+    printf("\npoints: outside %llu, boundary %llu, inside %llu\n", t.sides[0], t.sides[1], t.sides[2]);
+  }
+  return t.wrong != 0;
+}

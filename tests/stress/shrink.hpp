@@ -1,0 +1,191 @@
+// A failing case made small: parts of the tree, transforms, numbers, rays of the bundle and numbers of the rays are taken away as
+// long as what is left still fails.
+#pragma once
+#include "judge.hpp"
+
+#include <chrono>
+#include <functional>
+
+namespace stress {
+struct Case {
+  Spec spec;
+  std::vector<Ray> rays;
+  int way = One;
+  uint64_t spots_seed = 0;
+};
+inline double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// The first ray that is answered wrong for certain, or -1.
+inline int first_wrong(const Case &c, std::string *said = nullptr) {
+  try {
+    Bench b(c.spec, c.spots_seed);
+    auto replies = ask_rays(b.model, c.rays, c.way);
+    for (size_t i = 0; i < c.rays.size(); i++) {
+      size_t rounded = 0;
+      b.aim_quick(c.rays[i]);
+      Verdict v = b.judge_quick(c.rays[i], replies[i], c.way, rounded);
+      if (v == Right) continue;
+      b.aim_exact(c.rays[i]);
+      if (b.judge_exact(c.rays[i], replies[i], c.way, rounded) != Wrong) continue;
+      if (said) {
+        std::ostringstream w;
+        w.precision(17);
+        w << "status " << quoin_status_text(replies[i].answer.status);
+        if (is_hit(c.way)) w << ", found " << replies[i].hit.found << " t " << replies[i].hit.t << " leaving " << replies[i].hit.leaving;
+        else {
+          for (auto &p : replies[i].answer.inside) w << ", inside " << p.enter.t << (p.enter.part ? "" : " (cut)") << " to " << p.leave.t << (p.leave.part ? "" : " (cut)");
+          for (auto &p : replies[i].answer.boundary) w << ", boundary " << p.enter.t << " to " << p.leave.t;
+        }
+        w << "\n// should be:";
+        const Answer &a = b.exact_answer;
+        for (size_t k = 0; k < a.what.size(); k++) {
+          if (k) w << " | " << CGAL::to_double(a.cuts[k - 1]) << " |";
+          w << (a.what[k] == Answer::Inside ? " inside" : a.what[k] == Answer::On ? " boundary" : " outside");
+        }
+        *said = w.str();
+      }
+      return (int)i;
+    }
+  } catch (const std::exception &) {
+  }
+  return -1;
+}
+
+inline Spec *node_at(Spec &s, int &i) {
+  if (i-- == 0) return &s;
+  for (auto &k : s.kids)
+    if (Spec *f = node_at(k, i)) return f;
+  return nullptr;
+}
+inline int nodes_of(const Spec &s) {
+  int n = 1;
+  for (auto &k : s.kids) n += nodes_of(k);
+  return n;
+}
+inline Q whole(const Q &q) { return Q(std::nearbyint(CGAL::to_double(q))); }
+
+// Calls attempt(spec) for every smaller tree until one returns true.
+inline bool smaller(const Spec &from, const std::function<bool(const Spec &)> &attempt) {
+  int n = nodes_of(from);
+  auto edit = [&](int i, const std::function<bool(Spec &)> &f) {
+    Spec s = from;
+    int at = i;
+    Spec *x = node_at(s, at);
+    return x && f(*x) && attempt(s);
+  };
+  for (int i = 0; i < n; i++) {
+    Spec copy = from;
+    int at = i;
+    Spec x = *node_at(copy, at);
+    for (size_t k = 0; k < x.kids.size(); k++)
+      if (edit(i, [&](Spec &s) {
+            Spec kid = s.kids[k];
+            kid.steps.insert(kid.steps.begin(), s.steps.begin(), s.steps.end());
+            s = kid;
+            return true;
+          }))
+        return true;
+    for (size_t k = 0; x.kids.size() > 1 && k < x.kids.size(); k++)
+      if (edit(i, [&](Spec &s) { return s.kids.erase(s.kids.begin() + (long)k), true; })) return true;
+  }
+  for (int i = 0; i < n; i++) {
+    Spec copy = from;
+    int at = i;
+    Spec x = *node_at(copy, at);
+    for (size_t k = 0; k < x.steps.size(); k++) {
+      if (edit(i, [&](Spec &s) { return s.steps.erase(s.steps.begin() + (long)k), true; })) return true;
+      for (int j = 0; j < 3 && x.steps[k].kind != Step::Matrix; j++) {
+        Q plain = x.steps[k].kind == Step::Scale ? Q(1) : Q(0);
+        if (x.steps[k].v[(size_t)j] != plain && edit(i, [&](Spec &s) { return s.steps[k].v[(size_t)j] = plain, true; })) return true;
+        Q w = whole(x.steps[k].v[(size_t)j]);
+        if (x.steps[k].v[(size_t)j] != w && w != 0 && edit(i, [&](Spec &s) { return s.steps[k].v[(size_t)j] = w, true; })) return true;
+      }
+    }
+    if (x.op != Node::IsLeaf) continue;
+    if (x.shape.placed && edit(i, [](Spec &s) { return s.shape.placed = false, true; })) return true;
+    if (x.shape.center && edit(i, [](Spec &s) { return s.shape.center = false, true; })) return true;
+    for (size_t j = 0; j < x.shape.p.size(); j++)
+      for (int to : {0, 1, 2}) {
+        if (x.shape.p[j] == to || (to == 0 && x.shape.kind != Shape::General && x.shape.kind != Shape::HalfSpace) || (to == 2 && whole(x.shape.p[j]) == x.shape.p[j])) continue;
+        if (edit(i, [&](Spec &s) { return s.shape.p[j] = to, true; })) return true;
+      }
+  }
+  return false;
+}
+
+inline void shrink(Case &c, double seconds) {
+  const double end = now() + seconds;
+  auto fails = [&](const Case &x) { return first_wrong(x) >= 0; };
+  auto keep = [&](Case x) { // the case becomes x if that fails too
+    if (now() > end || !fails(x)) return false;
+    c = std::move(x);
+    return true;
+  };
+  { // one ray alone, if that fails; a plainer way to ask
+    int w = first_wrong(c);
+    if (w < 0) return;
+    Case x = c;
+    x.rays = {c.rays[(size_t)w]};
+    if (!keep(x))
+      for (size_t half = c.rays.size() / 2; half > 0; half /= 2)
+        for (size_t i = 0; i + half <= c.rays.size() && c.rays.size() > half;) {
+          x = c;
+          x.rays.erase(x.rays.begin() + (long)i, x.rays.begin() + (long)(i + half));
+          if (!keep(x)) i += half;
+        }
+    for (int way : {(int)One, (int)Hit}) {
+      x = c;
+      x.way = way;
+      if (c.way != One && c.way != way) keep(x);
+    }
+  }
+  for (bool again = true; again && now() < end;) {
+    again = smaller(c.spec, [&](const Spec &s) {
+      Case x = c;
+      x.spec = s;
+      return keep(x);
+    });
+    for (size_t i = 0; i < c.rays.size() && c.rays.size() <= 8; i++) {
+      auto edit = [&](const std::function<void(Ray &)> &f) {
+        Case x = c;
+        f(x.rays[i]);
+        const Ray &a = x.rays[i], &b = c.rays[i];
+        bool same = memcmp(&a, &b, sizeof a) == 0, still = a.d[0] == 0 && a.d[1] == 0 && a.d[2] == 0;
+        if (!same && !still && a.from <= a.to && keep(x)) again = true;
+      };
+      edit([](Ray &r) { r.from = -INFINITY; });
+      edit([](Ray &r) { r.to = INFINITY; });
+      for (int k = 0; k < 6; k++) {
+        auto at = [k](Ray &r) -> double & { return k < 3 ? r.o[k] : r.d[k - 3]; };
+        edit([&](Ray &r) { at(r) = 0; });
+        for (int bits : {1, 4, 12, 24})
+          edit([&](Ray &r) {
+            int e;
+            double m = std::frexp(at(r), &e);
+            at(r) = std::ldexp(std::nearbyint(std::ldexp(m, bits)), e - bits);
+          });
+      }
+    }
+  }
+}
+
+// The file to keep: the model, with the rays in comments.
+inline std::string report(const Case &c, const std::string &title, const std::string &again) {
+  std::ostringstream w;
+  std::string said;
+  int wrong = first_wrong(c, &said);
+  w << "// " << title << "\n// again: " << again << "\n// asked: " << WAYS[c.way] << ", " << c.rays.size() << " rays, the wrong one is number " << wrong << "\n";
+  const char *isa = getenv("QUOIN_ISA");
+  if (isa) w << "// QUOIN_ISA=" << isa << "\n";
+  w.precision(17);
+  for (size_t i = 0; i < c.rays.size(); i++) {
+    const Ray &r = c.rays[i];
+    w << "// ray";
+    for (double v : r.o) w << " " << v;
+    for (double v : r.d) w << " " << v;
+    w << "  from " << r.from << " to " << r.to << "\n";
+  }
+  w << "// quoin says: " << said << "\n" << text_of(c.spec);
+  return w.str();
+}
+} // namespace stress
