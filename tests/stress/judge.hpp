@@ -29,7 +29,22 @@ static const char *const WAYS[Ways] = {"quoin_ray_intervals", "quoin_ray_interva
 inline bool is_hit(int way) { return way == Hits || way == Hit; }
 struct Reply { Answer2 answer; quoin_hit hit{}; };
 
-inline std::vector<Reply> ask_rays(const Model &m, const std::vector<Ray> &rays, int way) {
+// Scratch that runs the wide code of one instruction set (or of the widest below it that this machine has).
+static const char *const ISAS[] = {"sse2", "avx2", "avx512"};
+struct Work {
+  quoin_work *work = nullptr;
+  Work(const Model &m, int isa) {
+    setenv("QUOIN_ISA", ISAS[isa], 1);
+    quoin_status s = quoin_work_new(m.scene, &work);
+    unsetenv("QUOIN_ISA");
+    if (s != QUOIN_OK) throw std::runtime_error("no work");
+  }
+  ~Work() { quoin_work_free(work); }
+  Work(const Work &) = delete;
+};
+
+inline std::vector<Reply> ask_rays(const Model &model, quoin_work *work, const std::vector<Ray> &rays, int way) {
+  struct { quoin_scene *scene; quoin_work *work; } m{model.scene, work};
   std::vector<Reply> out(rays.size());
   std::vector<quoin_ray> q;
   for (auto &r : rays) q.push_back(plain(r));
@@ -121,12 +136,14 @@ struct Bench { // one model and its judges
   Surfaces surfaces;
   Quick quick;
   Model model;
+  Work sse2, avx2, avx512;
   std::vector<const Spot *> spots;
+  quoin_work *work(int isa) const { return (isa == 0 ? sse2 : isa == 1 ? avx2 : avx512).work; }
   static Node build(const Spec &s, uint64_t seed, std::vector<Ball> &b) {
     Random r(seed);
     return node_of(s, Map(), r, b);
   }
-  Bench(const Spec &s, uint64_t seed) : spec(s), text(text_of(s)), solid(build(s, seed, balls)), surfaces(solid), quick(solid, balls), model(text) {
+  Bench(const Spec &s, uint64_t seed) : spec(s), text(text_of(s)), solid(build(s, seed, balls)), surfaces(solid), quick(solid, balls), model(text), sse2(model, 0), avx2(model, 1), avx512(model, 2) {
     std::vector<const Leaf *> leaves;
     collect(solid, leaves);
     for (auto *l : leaves)

@@ -58,8 +58,9 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     way = way < 20 ? One : way < 50 ? Many : way < 65 ? ManyBoundary : way < 85 ? Hits : way < 92 ? Hit : Text;
     size_t n = kind == Alone ? 1 : way == Text ? 4 : (size_t)(r.chance(50) ? 64 : r.chance(50) ? r.range(1, 63) : r.range(65, 140));
     bundle(r, first, kind, n, b->spots, rays);
+    int isa = r.below(3);
     double t0 = now();
-    auto replies = ask_rays(b->model, rays, way);
+    auto replies = ask_rays(b->model, b->work(isa), rays, way);
     t.asking += now() - t0;
     t.by_bundle[kind] += n, t.by_way[way] += n, t.by_aim[line.kind] += n;
     for (size_t i = 0; i < n; i++) {
@@ -89,7 +90,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
       if ((v == Wrong) != (e == Wrong) && v != Unknown) fprintf(stderr, "the judges disagree: --again %llu\n", (unsigned long long)seed), t.wrong++;
       if (v != Right) t.exact++, t.ends += ends;
       if (e == Wrong) {
-        Case c{spec, rays, way, spots_seed};
+        Case c{spec, rays, way, isa, spots_seed};
         found(t, o, c, seed, "wrong ray");
         return;
       }
@@ -120,7 +121,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
       size_t n = r.chance(50) ? 1 : 8;
       for (size_t i = 0; i < n * 3; i++) many[i] = x[i % 3];
       for (size_t i = 3; i < n * 3; i++) many[i] += std::ldexp((double)r.range(-2, 2), -r.range(0, 60));
-      s = quoin_point_sides(b->model.scene, b->model.work, n, many, sides);
+      s = quoin_point_sides(b->model.scene, b->work(r.below(3)), n, many, sides);
       said = sides[0];
     }
     t.points++, t.sides[should]++;

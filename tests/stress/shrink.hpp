@@ -10,7 +10,7 @@ namespace stress {
 struct Case {
   Spec spec;
   std::vector<Ray> rays;
-  int way = One;
+  int way = One, isa = 2;
   uint64_t spots_seed = 0;
 };
 inline double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -19,7 +19,7 @@ inline double now() { return std::chrono::duration<double>(std::chrono::steady_c
 inline int first_wrong(const Case &c, std::string *said = nullptr) {
   try {
     Bench b(c.spec, c.spots_seed);
-    auto replies = ask_rays(b.model, c.rays, c.way);
+    auto replies = ask_rays(b.model, b.work(c.isa), c.rays, c.way);
     for (size_t i = 0; i < c.rays.size(); i++) {
       size_t rounded = 0;
       b.aim_quick(c.rays[i]);
@@ -175,8 +175,7 @@ inline std::string report(const Case &c, const std::string &title, const std::st
   std::string said;
   int wrong = first_wrong(c, &said);
   w << "// " << title << "\n// again: " << again << "\n// asked: " << WAYS[c.way] << ", " << c.rays.size() << " rays, the wrong one is number " << wrong << "\n";
-  const char *isa = getenv("QUOIN_ISA");
-  if (isa) w << "// QUOIN_ISA=" << isa << "\n";
+  w << "// QUOIN_ISA=" << ISAS[c.isa] << "\n";
   w.precision(17);
   for (size_t i = 0; i < c.rays.size(); i++) {
     const Ray &r = c.rays[i];
