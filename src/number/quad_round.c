@@ -129,10 +129,32 @@ double qn_rat_to_double(qn_ctx *ctx, qn_int num, qn_int den) {
   return v;
 }
 
+/* A root num/den of a quadratic with rounded numbers (S2): where it agrees with the middle of two doubles it is that middle, as it is in
+   every comparison; the stored quotient may lie on either side, depending on what else was done to the solid. */
+static double rounded_to_double(qn_ctx *ctx, qn_root x, qn_int num, qn_int den) {
+  if (x.q->sign_a == 0 ? x.q->sign_c == 0 : x.q->sign_h == 0) {
+    return 0;
+  }
+  int sign = qn_int_sign(num);
+  double v = ratio(ctx, qn_int_abs(num), den);
+  if (ctx->failed == QUOIN_OK && v > 0) {
+    double under = nextafter(v, 0), over = nextafter(v, HUGE_VAL);
+    v = nearer(ctx, x, sign, under, v) == under ? under : v < over && nearer(ctx, x, sign, v, over) == over ? over : v;
+  }
+  return with_sign(sign, v);
+}
+
 double qn_root_to_double(qn_ctx *ctx, qn_root x) {
   qn_mark mark = qn_arena_mark(&ctx->arena);
   qn_int num, den;
-  double v = qn_root_plain_(ctx, x, &num, &den) ? with_sign(qn_int_sign(num), ratio(ctx, qn_int_abs(num), den)) : two_to_double(ctx, x);
+  double v;
+  if (!qn_root_plain_(ctx, x, &num, &den)) {
+    v = two_to_double(ctx, x);
+  } else if (qn_quad_rounded_(x.q)) {
+    v = rounded_to_double(ctx, x, num, den);
+  } else {
+    v = with_sign(qn_int_sign(num), ratio(ctx, qn_int_abs(num), den));
+  }
   qn_arena_release(&ctx->arena, mark);
   return v;
 }

@@ -399,6 +399,37 @@ static void test_rounded_far(void **state) {
   }
 }
 
+/* A rounded root at the middle between two doubles, stored a little beside it: it is the middle, and goes to the even one. */
+static void test_rounded_middles(void **state) {
+  (void)state;
+  qn_int one = qn_int_from(&ctx, 1);
+  for (int kind = 0; kind < 2; kind++) { /* linear; a double root */
+    for (int odd = 0; odd < 2; odd++) {
+      for (int beside = -1; beside <= 1; beside++) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+          /* ((2^53 + odd) + 1/2 + beside 2^-230), over 2^-230 */
+          qn_int n = qn_int_shl(&ctx, qn_int_from(&ctx, (((int64_t)1 << 53) + 2 * odd) + 1), 230);
+          n = qn_int_add(&ctx, n, qn_int_from(&ctx, beside));
+          n = sign < 0 ? qn_int_neg(n) : n;
+          qn_xint a = qn_x_shl(&ctx, qn_x(one), 230), root = qn_x_rounded(n), zero = qn_x(qn_int_from(&ctx, 0));
+          qn_quad q;
+          if (kind == 0) {
+            qn_quad_make(&ctx, zero, a, qn_x_neg(qn_x_shl(&ctx, root, 1)), &q);
+          } else {
+            qn_quad_make(&ctx, qn_x_mul(&ctx, a, a), qn_x_neg(qn_x_mul(&ctx, a, root)), qn_x_mul(&ctx, root, root), &q);
+          }
+          double want = sign * (0x1p53 + (odd ? 4 : 0)); /* 2^53 + 1 and 2^53 + 3 are middles of neighbours 2 apart */
+          assert_true(qn_root_to_double(&ctx, (qn_root){&q, 0}) == want);
+        }
+      }
+    }
+  }
+  qn_quad q; /* what is zero beside its terms is zero */
+  qn_xint tiny = qn_x_sub(&ctx, qn_x_rounded(qn_int_add(&ctx, qn_int_shl(&ctx, one, 255), one)), qn_x_rounded(qn_int_shl(&ctx, one, 255)));
+  qn_quad_make(&ctx, qn_x(qn_int_from(&ctx, 0)), qn_x(one), tiny, &q);
+  assert_true(qn_root_to_double(&ctx, (qn_root){&q, 0}) == 0);
+}
+
 /* A refused allocation is told by the context, and nothing hangs. */
 static void test_memory(void **state) {
   (void)state;
@@ -422,7 +453,8 @@ static void test_memory(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_kinds),      cmocka_unit_test(test_order),        cmocka_unit_test(test_to_double), cmocka_unit_test(test_to_double_middles),
-    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_rounded_far), cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_rounded_far),
+    cmocka_unit_test(test_rounded_middles), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
