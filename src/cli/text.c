@@ -1,5 +1,7 @@
 #include "cli/text.h"
 
+#include "cli/number.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -58,7 +60,9 @@ void cli_putf(cli_text *text, const char *format, ...) {
 }
 
 void cli_put_number(cli_text *text, double x) {
-  cli_putf(text, "%.17g", x);
+  if (room(text, CLI_NUMBER_SIZE)) {
+    text->length += cli_format_number(text->data + text->length, x);
+  }
 }
 
 void cli_put_field(cli_text *text, const char *name) {

@@ -147,6 +147,48 @@ static void one_bundle(dice *d, const ask *a, const char *text, int model, int b
   }
 }
 
+/* The same rays as decimals of some digits: rays that are no doubles, most of them. */
+static size_t decimal_rays, decimal_woven;
+static void some_decimals(dice *d, const ask *a, const char *text, int model, int bundle, const frame *f) {
+  static char numbers[QN_LANES][6][40];
+  const char *rays[6 * QN_LANES];
+  quoin_ray doubles[QN_LANES];
+  fill_bundle(d, bundle, f, doubles);
+  int digits = roll(d, 3) ? 3 + roll(d, 15) : 17, nudge = roll(d, 2);
+  size_t n = roll(d, 2) ? QN_LANES : 1 + (size_t)roll(d, QN_LANES);
+  char from[40], to[40];
+  snprintf(from, sizeof from, "%.*g", digits, doubles[0].from), snprintf(to, sizeof to, "%.*g", digits, doubles[0].to);
+  const char *begin = isinf(doubles[0].from) ? NULL : from, *end = isinf(doubles[0].to) ? NULL : to;
+  for (size_t i = 0; i < n; i++) {
+    for (int k = 0; k < 6; k++) {
+      double v = k < 3 ? doubles[i].o[k] : doubles[i].d[k - 3];
+      snprintf(numbers[i][k], sizeof numbers[i][k], "%.*g", digits, nudge ? v * 1.1 : v);
+      rays[6 * i + (size_t)k] = numbers[i][k];
+    }
+    quoin_intervals v;
+    want[i] = (truth){.status = quoin_ray_intervals_text(a->scene, a->work, rays + 6 * i, begin, end, QUOIN_WANT_BOUNDARY, &v)};
+    if (want[i].status != QUOIN_OK) {
+      return;
+    }
+    want[i].count = v.count, want[i].boundary_count = v.boundary_count;
+    memcpy(want[i].inside, v.inside, v.count * sizeof *v.inside);
+    memcpy(want[i].boundary, v.boundary, v.boundary_count * sizeof *v.boundary);
+  }
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    asked q = {text, isas[k], model, bundle, doubles, want, 0};
+    assert_int_equal(quoin_ray_intervals_many_text(a->scene, work, n, rays, begin, end, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+    assert_int_equal(q.answers, n);
+    quoin_stats stats;
+    quoin_work_stats(work, &stats);
+    decimal_rays += n, decimal_woven += stats.exact_rays;
+    quoin_work_free(work);
+  }
+}
+
 static void report(const char *name, const share *s) {
   print_message("  %-22s %8llu rays, %8llu stretches, %7llu rays cut, %5.2f %% given up\n", name, (unsigned long long)s->rays, (unsigned long long)s->stretches,
                 (unsigned long long)s->cut, s->rays ? 100 * (double)s->unsure / (double)s->rays : 0);
@@ -166,6 +208,9 @@ static void random_models(void **state) {
     for (int k = 0; k < 8; k++) {
       one_bundle(&d, &a, text, model, roll(&d, BUNDLES), &f);
     }
+    for (int k = 0; k < 3; k++) {
+      some_decimals(&d, &a, text, model, roll(&d, BUNDLES), &f);
+    }
     ask_close(&a);
   }
   for (int i = 0; i < MODELS; i++) {
@@ -174,7 +219,9 @@ static void random_models(void **state) {
   for (int i = 0; i < BUNDLES; i++) {
     report(BUNDLE_NAMES[i], &by_bundle[i]);
   }
+  print_message("  %zu rays of decimals, %zu given up by their packets\n", decimal_rays, decimal_woven);
   assert_int_equal(failures, 0);
+  assert_true(2 * decimal_woven < decimal_rays);
   for (int i = 0; i < MODELS; i++) {
     assert_true(by_model[i].stretches > 0 && by_model[i].cut > 0);
     assert_true(i == MODELS - 1 || 4 * by_model[i].unsure < 3 * by_model[i].rays); /* superquadrics are not for packets */
@@ -231,6 +278,27 @@ static void wrong_rays(void **state) {
   assert_int_equal(quoin_ray_intervals_many(a.scene, a.work, 40, rays, 64, each, &q), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_ray_intervals_many(a.scene, a.work, 0, NULL, 0, each, &q), QUOIN_OK);
   assert_int_equal(q.answers, 21);
+  /* Decimals likewise: the 21st has a wrong number, then a direction of zero; digits beyond packets' are no wrong ones. */
+  const char *text[6 * 40];
+  static char y[40][8];
+  for (int i = 0; i < 40; i++) {
+    snprintf(y[i], sizeof y[i], "%.2f", 0.01 * i);
+    const char *const one[6] = {i % 5 ? "-5" : "-5.00000000000000000000000", y[i], "0e-500", i % 7 ? "1" : "1.0", "0", "0"};
+    memcpy(text + 6 * i, one, sizeof one);
+    quoin_intervals v;
+    assert_int_equal(quoin_ray_intervals_text(a.scene, a.work, one, "0", NULL, 0, &v), QUOIN_OK);
+    want[i].count = v.count, memcpy(want[i].inside, v.inside, v.count * sizeof *v.inside);
+  }
+  for (int pass = 0; pass < 4; pass++) {
+    text[6 * 21 + 1] = pass == 1 ? "1x" : y[21];
+    text[6 * 21 + 3] = pass == 2 ? "0" : "1";
+    text[6 * 21 + 5] = pass == 3 ? NULL : "0";
+    q.answers = 0;
+    quoin_status status = quoin_ray_intervals_many_text(a.scene, a.work, 40, text, "0", NULL, 0, each, &q);
+    assert_int_equal(status, pass == 0 ? QUOIN_OK : pass == 1 ? QUOIN_E_NUMBER : QUOIN_E_ARGUMENT);
+    assert_int_equal(q.answers, pass == 0 ? 40 : 21);
+  }
+  assert_int_equal(failures, 0);
   ask_close(&a);
 }
 

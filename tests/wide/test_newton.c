@@ -47,13 +47,26 @@ static void sum_product(mpq_t sum, const mpq_t a, const mpq_t b, const mpq_t c) 
   mpq_add(sum, sum, T.z);
 }
 
-static void exact_place(const double o[3], const double d[3], const double pivot[3], double t) {
+/* sum = v + low, and 2^-104 of v either way where it has a low part. */
+static void exact_number(mpq_t sum, double v, double low) {
+  mpq_set_d(sum, v);
+  if (low != 0) {
+    mpq_set_d(T.x, v);
+    mpq_div_2exp(T.x, T.x, 104);
+    (next() & 1 ? mpq_add : mpq_sub)(sum, sum, T.x);
+    mpq_set_d(T.x, low);
+    mpq_add(sum, sum, T.x);
+  }
+}
+
+/* low: of o and of d, or all zeros. */
+static void exact_place(const double o[3], const double d[3], const double low[6], const double pivot[3], double t) {
   for (int j = 0; j < 3; j++) {
-    mpq_set_d(T.d[j], d[j]);
+    exact_number(T.d[j], d[j], low[3 + j]);
     mpq_set_d(T.x, t);
     mpq_mul(T.y[j], T.d[j], T.x);
-    mpq_set_d(T.x, o[j]);
-    mpq_add(T.y[j], T.y[j], T.x);
+    exact_number(T.z, o[j], low[j]);
+    mpq_add(T.y[j], T.y[j], T.z);
     mpq_set_d(T.x, pivot[j]);
     mpq_sub(T.y[j], T.y[j], T.x);
   }
@@ -108,11 +121,14 @@ static void coefficient(int i, int low, double k[QN_ROUNDING_NUMBERS]) {
   mpq_add(T.K[i], T.K[i], T.x);
 }
 
-typedef struct census { unsigned sound, unsound, planes, mixed, near, dropped; double p, slope, a; } census;
+typedef struct census { unsigned sound, unsound, planes, mixed, near, dropped, pairs; double p, slope, a; } census;
 
 static void one_vector(census *c) {
   _Alignas(64) double k[QN_ROUNDING_NUMBERS] = {0}, o[3][QN_W], d[3][QN_W], t[QN_W];
-  surface_numbers f = {{k}, 0, 0, 1, 0}, each = {{NULL}, 1023, 7, 0, 0}; /* each: every term there, the missing ones as zeros */
+  const int pairs = one_in(3); /* o and d have low parts */
+  _Alignas(64) double low_parts[6][QN_W];
+  surface_numbers f = {{k}, 0, 0, 1, pairs}, each = {{NULL}, 1023, 7, 0, pairs}; /* each: every term there, the missing ones as zeros */
+  c->pairs += (unsigned)pairs;
   int plane = one_in(4), mixed = !plane && one_in(2), linear = plane || one_in(2), sphere = !plane && !mixed && one_in(2);
   int low = one_in(3) ? -40 : -4, scale = one_in(5) ? 40 : one_in(3) ? 20 : 3, far = one_in(4) ? (int)(next() % 38) : scale;
   scale = far < scale ? far : scale;
@@ -146,10 +162,15 @@ static void one_vector(census *c) {
     if (one_in(20)) {
       t[lane] = number(-200, -50);
     }
+    for (int j = 0; j < 6; j++) {
+      double v = (j < 3 ? o[j] : d[j - 3])[lane];
+      low_parts[j][lane] = pairs && !one_in(4) ? v * number(-1, 0) * QN_U : 0;
+    }
   }
   if (one_in(2) && k[QN_ROUNDING_HI + 9] != 0) { /* the constant so that the place of lane 0 is on the surface, as nearly as it can be */
     const double at[3] = {o[0][0], o[1][0], o[2][0]}, way[3] = {d[0][0], d[1][0], d[2][0]};
-    exact_place(at, way, pivot, t[0]);
+    const double low0[6] = {low_parts[0][0], low_parts[1][0], low_parts[2][0], low_parts[3][0], low_parts[4][0], low_parts[5][0]};
+    exact_place(at, way, low0, pivot, t[0]);
     mpq_set_si(T.K[9], 0, 1);
     exact_values();
     mpq_neg(T.p, T.p);
@@ -190,7 +211,7 @@ static void one_vector(census *c) {
   }
   rough_places at = {.t = vload(t), .e = vset(0)};
   for (int j = 0; j < 3; j++) {
-    at.o[j] = vload(o[j]), at.d[j] = vload(d[j]);
+    at.o[j] = vload(o[j]), at.d[j] = vload(d[j]), at.olow[j] = vload(low_parts[j]), at.dlow[j] = vload(low_parts[3 + j]);
   }
   residual r = residual_at(&f, &at), all_terms = residual_at(&each, &at);
   vstore(p[0], r.p), vstore(p[1], all_terms.p), vstore(slope, r.slope);
@@ -203,10 +224,11 @@ static void one_vector(census *c) {
     }
     c->sound++;
     const double from[3] = {o[0][lane], o[1][lane], o[2][lane]}, way[3] = {d[0][lane], d[1][lane], d[2][lane]};
-    exact_place(from, way, pivot, t[lane]);
+    const double rest[6] = {low_parts[0][lane], low_parts[1][lane], low_parts[2][lane], low_parts[3][lane], low_parts[4][lane], low_parts[5][lane]};
+    exact_place(from, way, rest, pivot, t[lane]);
     exact_values();
     for (int i = 0; i < 2; i++) {
-      c->p = fmax(c->p, ratio(p[i][lane], T.p, QN_U * fabs(p[i][lane]), QN_SLACK * pe[lane])); /* QN_ROUND_EVAL, and the tiny sizes */
+      c->p = fmax(c->p, ratio(p[i][lane], T.p, QN_U * fabs(p[i][lane]), QN_SLACK * pe[lane])); /* QN_ROUND_EVAL, QN_ROUND_PAIR_EVAL, and the tiny sizes */
     }
     c->slope = fmax(c->slope, ratio(slope[lane], T.slope, 0, QN_SLACK * se[lane])); /* QN_ROUND_SLOPE */
     mpq_abs(T.a, T.a);
@@ -224,7 +246,7 @@ static void test_bounds(void **state) {
   all(mpq_clear);
   print_message("error/bound: p %.4f, slope %.4f, a %.4f; %u sound, %u not, %u planes, %u mixed, %u near, %u dropped\n", c.p, c.slope,
                 c.a, c.sound, c.unsound, c.planes, c.mixed, c.near, c.dropped);
-  assert_true(c.sound > 50000 && c.unsound > 50 && c.planes > 5000 && c.mixed > 5000 && c.near > 2000 && c.dropped > 5000);
+  assert_true(c.sound > 50000 && c.unsound > 50 && c.planes > 5000 && c.mixed > 5000 && c.near > 2000 && c.dropped > 5000 && c.pairs > 10000);
   assert_true(c.p > 0.01 && c.slope > 0.02 && c.a > 0.5); /* the data come near what the bounds allow for */
 }
 
