@@ -42,6 +42,11 @@ static quoin_status certify(quoin_work *work, batch *b, quoin_side *out) {
   if (!work->point_walk && !(work->point_walk = qn_alloc_line(work->mem, sizeof *work->point_walk))) {
     return QUOIN_E_MEMORY;
   }
+  if (!work->cells_asked && qn_scratch_counts(work->scratch)->points >= work->scene->normal.term_count) { /* by now they pay */
+    work->cells_asked = 1;
+    work->cells = qn_scene_cells(work->scene);
+  }
+  work->point_walk->cells = work->cells;
   qn_wide_counts counts = {0};
   work->wide->points(work->scene, work->point_walk, b->wide, b->point, b->verdict, &counts);
   qn_scratch_counts(work->scratch)->nodes += counts.nodes;

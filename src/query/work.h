@@ -36,6 +36,8 @@ struct quoin_work {
   quoin_status status;    /* QUOIN_E_MEMORY when an array could not grow */
 
   qn_point_walk *point_walk; /* of batches; made when first needed */
+  const qn_cells *cells;     /* the scene's, once as many points have been asked as there are terms; or null */
+  int cells_asked;
 
   /* A ray's answer. */
   quoin_interval *inside;    size_t inside_capacity;

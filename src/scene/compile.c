@@ -1,6 +1,7 @@
 /* Compilation: one walk over the solid tree lists the leaves and the terms of the program; leaves are made with their shadows; terms are
    simplified, what dropped out is taken away, equal surfaces are found, and the hierarchy, the normal form and the pieces are
    built. */
+#include "scene/cells.h"
 #include "scene/compile.h"
 #include "scene/rounding.h"
 
@@ -129,6 +130,10 @@ static quoin_status make(qn_building *b) {
   status = status == QUOIN_OK ? qn_tell_progress(b->progress, 0.85) : status;
   status = status == QUOIN_OK ? qn_normal_build(&s->normal, s, b->mem, b->threads) : status;
   status = status == QUOIN_OK ? qn_pieces_build(s, b->mem, b->kinds, b->threads) : status;
+  if (status == QUOIN_OK && (s->cells = qn_alloc(b->mem, sizeof *s->cells)) != NULL) {
+    atomic_init(s->cells, NULL);
+  }
+  status = status == QUOIN_OK && !s->cells ? QUOIN_E_MEMORY : status;
   return status == QUOIN_OK ? qn_tell_progress(b->progress, 1) : status;
 }
 
@@ -192,6 +197,10 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   qn_bvh_free(&s->bvh, mem);
   qn_free_line(mem, s->lines, s->line_count * 64);
   qn_free(mem, s->line_of, s->leaf_count * sizeof *s->line_of);
+  if (s->cells) {
+    qn_cells_free(atomic_load_explicit(s->cells, memory_order_relaxed), mem);
+    qn_free(mem, s->cells, sizeof *s->cells);
+  }
   qn_free(mem, s->unbounded, s->unbounded_count * sizeof *s->unbounded);
   qn_free(mem, s->materials, s->material_count * sizeof *s->materials);
   qn_free(mem, s->part_names, s->leaf_count * sizeof *s->part_names);

@@ -69,6 +69,7 @@ struct quoin_scene {
   qn_normal normal;
   void *lines; size_t line_count; /* pieces, in cache lines */
   uint32_t *line_of;              /* by leaf: its piece's first line */
+  _Atomic(struct qn_cells *) *cells; /* null until asked for: scene/cells.h */
   qn_material *materials; size_t material_count; /* all parts filled in; 0 is the default material */
   uint32_t *part_names; /* by leaf: offset in name_text */
   char *name_text; size_t name_size;

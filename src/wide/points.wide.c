@@ -12,12 +12,14 @@
 #include "wide/inside.h"
 #include "wide/vec.h"
 
+#include <stddef.h>
 #include <string.h>
 
 enum {
   RUN = 32,                 /* entries taken at once */
   PAIRS = 8 * RUN /* QN_BVH_WIDE a node: questions and terms that a run gives, at most */
 };
+_Static_assert(sizeof(qn_nterm) >= 32 && offsetof(qn_nterm, max) == 12, "both corners of a term's box can be read as four floats");
 _Static_assert((int)PAIRS <= (int)QN_POINTS && (int)PAIRS == (int)QN_BVH_WIDE * (int)RUN, "a run's terms can all be asked about at once");
 
 typedef struct walk {
@@ -35,18 +37,18 @@ typedef struct questions { size_t n; uint32_t point[QN_POINTS], un[QN_POINTS]; u
 
 #if defined(QN_ISA_AVX512)
 QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
-  __mmask8 m = _mm256_cmp_ps_mask(_mm256_load_ps(n->min[0]), _mm256_set1_ps(box[3]), _CMP_LE_OQ);
+  __mmask8 m = _mm256_cmp_ps_mask(_mm256_load_ps(n->min[0]), _mm256_set1_ps(box[4]), _CMP_LE_OQ);
   m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->max[0]), _mm256_set1_ps(box[0]), _CMP_GE_OQ);
-  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->min[1]), _mm256_set1_ps(box[4]), _CMP_LE_OQ);
+  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->min[1]), _mm256_set1_ps(box[5]), _CMP_LE_OQ);
   m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->max[1]), _mm256_set1_ps(box[1]), _CMP_GE_OQ);
-  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->min[2]), _mm256_set1_ps(box[5]), _CMP_LE_OQ);
+  m = _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->min[2]), _mm256_set1_ps(box[6]), _CMP_LE_OQ);
   return _mm256_mask_cmp_ps_mask(m, _mm256_load_ps(n->max[2]), _mm256_set1_ps(box[2]), _CMP_GE_OQ);
 }
 #elif defined(QN_ISA_AVX2)
 QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
   __m256 m[3];
   for (int i = 0; i < 3; i++) {
-    m[i] = _mm256_and_ps(_mm256_cmp_ps(_mm256_load_ps(n->min[i]), _mm256_set1_ps(box[3 + i]), _CMP_LE_OQ),
+    m[i] = _mm256_and_ps(_mm256_cmp_ps(_mm256_load_ps(n->min[i]), _mm256_set1_ps(box[4 + i]), _CMP_LE_OQ),
                          _mm256_cmp_ps(_mm256_load_ps(n->max[i]), _mm256_set1_ps(box[i]), _CMP_GE_OQ));
   }
   return (unsigned)_mm256_movemask_ps(_mm256_and_ps(_mm256_and_ps(m[0], m[1]), m[2]));
@@ -55,7 +57,7 @@ QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
 QN_INLINE unsigned children_at(const qn_bvh_node *n, const float box[8]) {
   unsigned m = 0xff;
   for (int i = 0; i < 3; i++) {
-    m &= fle(fload(n->min[i]), fset(box[3 + i])) & fle(fset(box[i]), fload(n->max[i]));
+    m &= fle(fload(n->min[i]), fset(box[4 + i])) & fle(fset(box[i]), fload(n->max[i]));
   }
   return m;
 }
@@ -168,29 +170,39 @@ QN_INLINE void fetch_piece(const qn_piece_head *head) {
   }
 }
 
-/* Answers to (question, term) pairs go into the questions' verdicts. Each stage asks memory for what the next one reads, for all pairs. */
-static void settle_pairs(walk *w, questions *q, size_t count, const uint32_t *query, const uint32_t *term) {
+/* Whether the floats about a point meet a term's box. */
+QN_INLINE unsigned term_meets(const qn_nterm *t, const float box[8]) {
+  __m128 in = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(t->min), _mm_load_ps(box + 4)), _mm_cmple_ps(_mm_load_ps(box), _mm_loadu_ps(t->max)));
+  return (_mm_movemask_ps(in) & 7) == 7; /* the fourth are other fields */
+}
+
+/* Answers to (question, term) pairs go into the questions' verdicts. Each stage asks memory for what the next one reads, for all pairs. The
+   arrays are used up. */
+static void settle_pairs(walk *w, questions *q, size_t count, uint32_t *query, uint32_t *term) {
   const struct quoin_scene *scene = w->scene;
   const qn_normal *normal = &scene->normal;
   const qn_piece_head *first[PAIRS];
   open_term open[PAIRS];
-  size_t opened = 0;
+  size_t opened = 0, met = 0;
   for (size_t k = 0; k < count; k++) {
     QN_FETCH(&normal->terms[term[k] & ~QN_BVH_LEAF]);
   }
   for (size_t k = 0; k < count; k++) {
-    const qn_nterm *t = &normal->terms[term[k] & ~QN_BVH_LEAF];
-    first[k] = t->leaves ? piece_at(scene, normal->leaves[t->leaf0]) : NULL;
-    QN_FETCH(first[k]);
+    uint32_t number = term[k] & ~QN_BVH_LEAF;
+    const qn_nterm *t = &normal->terms[number];
+    first[met] = t->leaves ? piece_at(scene, normal->leaves[t->leaf0]) : NULL;
+    QN_FETCH(first[met]);
+    query[met] = query[k], term[met] = number;
+    met += term_meets(t, w->room->box[q->point[query[k]]]);
   }
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < met; k++) {
     if (first[k]) {
       fetch_piece(first[k]);
     }
   }
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < met; k++) {
     uint8_t *answer = &q->verdict[query[k]];
-    const qn_nterm *t = &normal->terms[term[k] & ~QN_BVH_LEAF];
+    const qn_nterm *t = &normal->terms[term[k]];
     const qn_wide_point *p = &w->points[q->point[query[k]]];
     unsigned all = QN_SURELY_IN;
     for (uint32_t i = 0; i < t->leaves && all > *answer; i++) {
@@ -202,7 +214,7 @@ static void settle_pairs(walk *w, questions *q, size_t count, const uint32_t *qu
       continue;
     }
     if (t->minus + t->plus) {
-      open[opened++] = (open_term){query[k], term[k] & ~QN_BVH_LEAF, (uint8_t)all};
+      open[opened++] = (open_term){query[k], term[k], (uint8_t)all};
     } else {
       *answer = (uint8_t)all;
     }
@@ -231,6 +243,58 @@ static QN_NOINLINE void ask_wide(walk *w, questions *q) {
   settle_pairs(w, q, count, query, term);
 }
 
+/* The cell of the floats about a point, or QN_NO_GRID when they are in two. */
+QN_INLINE uint32_t cell_at(const qn_cell_grid *g, const float box[8]) {
+  const __m128 low = _mm_load_ps(g->low), scale = _mm_load_ps(g->scale), last = _mm_load_ps(g->last), zero = _mm_setzero_ps();
+  __m128 from = _mm_min_ps(_mm_max_ps(_mm_mul_ps(_mm_sub_ps(_mm_load_ps(box), low), scale), zero), last);
+  __m128 to = _mm_min_ps(_mm_max_ps(_mm_mul_ps(_mm_sub_ps(_mm_load_ps(box + 4), low), scale), zero), last);
+  __m128i a = _mm_cvttps_epi32(from), b = _mm_cvttps_epi32(to);
+  if (QN_UNLIKELY(_mm_movemask_epi8(_mm_cmpeq_epi32(a, b)) != 0xffff)) {
+    return QN_NO_GRID;
+  }
+  uint32_t x = (uint32_t)_mm_cvtsi128_si32(a), y = (uint32_t)_mm_cvtsi128_si32(_mm_shuffle_epi32(a, 1)), z = (uint32_t)_mm_cvtsi128_si32(_mm_shuffle_epi32(a, 2));
+  return g->first + x + y * g->across + z * g->layer;
+}
+
+/* Asks the grids those questions that they can answer; the others' roots go on the stack. Returns its top. */
+static QN_NOINLINE size_t ask_cells(walk *w, questions *q, size_t top) {
+  const qn_normal *normal = &w->scene->normal;
+  const qn_cells *cells = w->room->cells;
+  uint32_t cell[QN_POINTS], query[PAIRS + QN_CELL_MOST], term[PAIRS + QN_CELL_MOST];
+  size_t pairs = 0;
+  for (size_t i = 0; i < q->n; i++) {
+    uint32_t grid = cells->grid[q->un[i]];
+    cell[i] = grid == QN_NO_GRID ? QN_NO_GRID : cell_at(&cells->grids[grid], w->room->box[q->point[i]]);
+    QN_FETCH(cell[i] == QN_NO_GRID ? cells->start : &cells->start[cell[i]]);
+  }
+  w->top = top + q->n; /* no further than this */
+  for (size_t i = 0; i < q->n; i++) {
+    const uint32_t *first = NULL;
+    size_t count = 0;
+    if (cell[i] != QN_NO_GRID) {
+      first = cells->term + cells->start[cell[i]];
+      count = cells->start[cell[i] + 1] - cells->start[cell[i]];
+    }
+    if (!first || (count && *first == QN_CELL_CROWDED)) {
+      uint32_t root = normal->unions[q->un[i]].root;
+      w->room->query[top] = (uint32_t)i, w->room->node[top] = root;
+      top += root != QN_NO_ROOT;
+      continue;
+    }
+    if (pairs + QN_CELL_MOST > PAIRS) {
+      settle_pairs(w, q, pairs, query, term);
+      pairs = 0;
+    }
+    for (int k = 0; k < QN_CELL_MOST; k += 4) {
+      _mm_storeu_si128((void *)(term + pairs + k), _mm_loadu_si128((const void *)(first + k)));
+      _mm_storeu_si128((void *)(query + pairs + k), _mm_set1_epi32((int)i));
+    }
+    pairs += count;
+  }
+  settle_pairs(w, q, pairs, query, term);
+  return top;
+}
+
 /* Fills the verdicts. Runs of entries at the top of the stack are taken until it is as low as before. */
 static void ask(walk *w, questions *q) {
   const qn_normal *normal = &w->scene->normal;
@@ -244,13 +308,16 @@ static void ask(walk *w, questions *q) {
     const qn_union *u = &normal->unions[q->un[i]];
     q->verdict[i] = QN_SURELY_OUT;
     any_wide |= u->wide;
-    if (u->root != QN_NO_ROOT) {
+    if (!room->cells && u->root != QN_NO_ROOT) {
       room->query[top] = (uint32_t)i, room->node[top++] = u->root;
     }
   }
   if (any_wide) {
     w->top = top;
     ask_wide(w, q);
+  }
+  if (room->cells) {
+    top = ask_cells(w, q, top);
   }
   while (top > bottom) {
     uint32_t query[RUN], node[RUN], pair_query[PAIRS + QN_BVH_WIDE], pair_term[PAIRS + QN_BVH_WIDE];
@@ -308,8 +375,9 @@ void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, 
   q.n = n;
   for (size_t i = 0; i < n; i++) {
     double e = 2 * QN_U * points[i].weight;
+    room->box[i][3] = room->box[i][7] = 0;
     for (int k = 0; k < 3; k++) {
-      room->box[i][k] = below(points[i].x[k] - e), room->box[i][3 + k] = above(points[i].x[k] + e);
+      room->box[i][k] = below(points[i].x[k] - e), room->box[i][4 + k] = above(points[i].x[k] + e);
     }
     q.point[i] = (uint32_t)i;
     q.un[i] = scene->normal.root;
