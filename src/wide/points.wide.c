@@ -180,20 +180,25 @@ QN_INLINE unsigned term_meets(const qn_nterm *t, const float box[8]) {
    arrays are used up. */
 static void settle_pairs(walk *w, questions *q, size_t count, uint32_t *query, uint32_t *term) {
   const struct quoin_scene *scene = w->scene;
-  const qn_normal *normal = &scene->normal;
+  const qn_nterm *terms = scene->normal.terms;
+  const uint32_t *leaves = scene->normal.leaves;
+  const float (*box)[8] = (const float (*)[8])w->room->box;
   const qn_piece_head *first[PAIRS];
   open_term open[PAIRS];
   size_t opened = 0, met = 0;
   for (size_t k = 0; k < count; k++) {
-    QN_FETCH(&normal->terms[term[k] & ~QN_BVH_LEAF]);
+    term[k] &= ~QN_BVH_LEAF;
+    QN_FETCH(&terms[term[k]]);
   }
   for (size_t k = 0; k < count; k++) {
-    uint32_t number = term[k] & ~QN_BVH_LEAF;
-    const qn_nterm *t = &normal->terms[number];
-    first[met] = t->leaves ? piece_at(scene, normal->leaves[t->leaf0]) : NULL;
-    QN_FETCH(first[met]);
-    query[met] = query[k], term[met] = number;
-    met += term_meets(t, w->room->box[q->point[query[k]]]);
+    uint32_t one = term[k], asks = query[k];
+    query[met] = asks, term[met] = one;
+    met += term_meets(&terms[one], box[q->point[asks]]);
+  }
+  for (size_t k = 0; k < met; k++) {
+    const qn_nterm *t = &terms[term[k]];
+    first[k] = t->leaves ? piece_at(scene, leaves[t->leaf0]) : NULL;
+    QN_FETCH(first[k]);
   }
   for (size_t k = 0; k < met; k++) {
     if (first[k]) {
@@ -202,11 +207,11 @@ static void settle_pairs(walk *w, questions *q, size_t count, uint32_t *query, u
   }
   for (size_t k = 0; k < met; k++) {
     uint8_t *answer = &q->verdict[query[k]];
-    const qn_nterm *t = &normal->terms[term[k]];
+    const qn_nterm *t = &terms[term[k]];
     const qn_wide_point *p = &w->points[q->point[query[k]]];
     unsigned all = QN_SURELY_IN;
     for (uint32_t i = 0; i < t->leaves && all > *answer; i++) {
-      unsigned one = in_piece(scene, i ? piece_at(scene, normal->leaves[t->leaf0 + i]) : first[k], p);
+      unsigned one = in_piece(scene, i ? piece_at(scene, leaves[t->leaf0 + i]) : first[k], p);
       all = one < all ? one : all;
       w->counts.leaves++;
     }
