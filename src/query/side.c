@@ -22,16 +22,20 @@ typedef struct batch {
   uint8_t verdict[QN_POINTS], left[QN_POINTS];
 } batch;
 
-QN_INLINE void add(batch *b, const double x[3], const double weight[3]) {
+/* 0 for what is no point. */
+QN_INLINE int add(batch *b, const double x[3], const double weight[3]) {
   double size = fabs(x[0]) > fabs(x[1]) ? fabs(x[0]) : fabs(x[1]), w = weight[0] > weight[1] ? weight[0] : weight[1];
   size = fabs(x[2]) > size ? fabs(x[2]) : size;
   w = weight[2] > w ? weight[2] : w;
   b->left[b->n] = 1;
-  if (size <= QN_WIDE_LARGEST) { /* then the weight is too */
+  if (QN_LIKELY(size + 0 * (x[0] + x[1] + x[2]) <= QN_WIDE_LARGEST)) { /* then the weight is no larger; and no coordinate is infinite or not a number */
     b->point[b->wide] = (qn_wide_point){{x[0], x[1], x[2]}, w};
     b->place[b->wide++] = (uint16_t)b->n;
+  } else if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2])) {
+    return 0;
   }
   b->n++;
+  return 1;
 }
 
 static quoin_status certify(quoin_work *work, batch *b, quoin_side *out) {
@@ -72,8 +76,7 @@ quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_
   for (size_t at = 0; at < n && status == QUOIN_OK; at += QN_POINTS) {
     batch b;
     b.n = b.wide = 0;
-    for (size_t i = at; i < n && b.n < QN_POINTS && isfinite(points[3 * i]) && isfinite(points[3 * i + 1]) && isfinite(points[3 * i + 2]); i++) {
-      add(&b, points + 3 * i, exact);
+    for (size_t i = at; i < n && b.n < QN_POINTS && add(&b, points + 3 * i, exact); i++) {
     }
     qn_scratch_counts(work->scratch)->points += b.n;
     status = certify(work, &b, out + at);
@@ -109,8 +112,8 @@ quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, 
     for (; *done + b.n < n && b.n < QN_POINTS && wrong == QUOIN_OK;) {
       qn_query_point p;
       wrong = qn_query_point_text(work, texts + 3 * b.n, &p);
-      if (wrong == QUOIN_OK) {
-        add(&b, p.x, p.weight);
+      if (wrong == QUOIN_OK && !add(&b, p.x, p.weight)) { /* beyond all doubles: left */
+        b.n++;
       }
     }
     qn_scratch_counts(work->scratch)->points += b.n;

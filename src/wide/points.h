@@ -20,7 +20,7 @@ enum { QN_SURELY_OUT, QN_NOT_SURE, QN_SURELY_IN };
 
 /* A thread's memory for a batch. */
 typedef struct qn_point_walk {
-  _Alignas(64) float box[QN_POINTS][8]; /* the floats about each point: min xyz 0, max xyz 0 */
+  _Alignas(64) float box[QN_POINTS][8]; /* the floats about each point: min xyz, any, max xyz, any */
   const qn_cells *cells;                /* in: of the scene, or null: then all is asked of the hierarchies */
   uint32_t query[QN_POINT_ROOM], node[QN_POINT_ROOM];
 } qn_point_walk;

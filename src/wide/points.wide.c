@@ -17,6 +17,7 @@
 
 enum {
   RUN = 32,                 /* entries taken at once */
+  FEW = 2,                  /* terms of a union that are asked without its hierarchy */
   PAIRS = 8 * RUN /* QN_BVH_WIDE a node: questions and terms that a run gives, at most */
 };
 _Static_assert(sizeof(qn_nterm) >= 32 && offsetof(qn_nterm, max) == 12, "both corners of a term's box can be read as four floats");
@@ -29,6 +30,8 @@ typedef struct walk {
   size_t top; /* entries on the stack */
   qn_wide_counts counts;
 } walk;
+
+#define NOWHERE (UINT32_MAX - 1) /* the cell of a question that is not asked of a grid */
 
 /* n questions: is point[i] in the union un[i]? */
 typedef struct questions { size_t n; uint32_t point[QN_POINTS], un[QN_POINTS]; uint8_t verdict[QN_POINTS]; } questions;
@@ -231,23 +234,6 @@ static void settle_pairs(walk *w, questions *q, size_t count, uint32_t *query, u
 
 /* --- the walk --------------------------------------------------------------------------------------------------------- */
 
-/* Terms that have no place in a hierarchy. */
-static QN_NOINLINE void ask_wide(walk *w, questions *q) {
-  uint32_t query[PAIRS], term[PAIRS];
-  size_t count = 0;
-  for (size_t i = 0; i < q->n; i++) {
-    const qn_union *u = &w->scene->normal.unions[q->un[i]];
-    for (uint32_t k = 0; k < u->wide && q->verdict[i] != QN_SURELY_IN; k++) {
-      query[count] = (uint32_t)i, term[count++] = u->wide0 + k;
-      if (count == PAIRS) {
-        settle_pairs(w, q, count, query, term);
-        count = 0;
-      }
-    }
-  }
-  settle_pairs(w, q, count, query, term);
-}
-
 /* The cell of the floats about a point, or QN_NO_GRID when they are in two. */
 QN_INLINE uint32_t cell_at(const qn_cell_grid *g, const float box[8]) {
   const __m128 low = _mm_load_ps(g->low), scale = _mm_load_ps(g->scale), last = _mm_load_ps(g->last), zero = _mm_setzero_ps();
@@ -261,42 +247,75 @@ QN_INLINE uint32_t cell_at(const qn_cell_grid *g, const float box[8]) {
   return g->first + x + y * g->across + z * g->layer;
 }
 
-/* Asks the grids those questions that they can answer; the others' roots go on the stack. Returns its top. */
-static QN_NOINLINE size_t ask_cells(walk *w, questions *q, size_t top) {
-  const qn_normal *normal = &w->scene->normal;
-  const qn_cells *cells = w->room->cells;
-  uint32_t cell[QN_POINTS], query[PAIRS + QN_CELL_MOST], term[PAIRS + QN_CELL_MOST];
-  size_t pairs = 0;
-  for (size_t i = 0; i < q->n; i++) {
-    uint32_t grid = cells->grid[q->un[i]];
-    cell[i] = grid == QN_NO_GRID ? QN_NO_GRID : cell_at(&cells->grids[grid], w->room->box[q->point[i]]);
-    QN_FETCH(cell[i] == QN_NO_GRID ? cells->start : &cells->start[cell[i]]);
+/* (question, term) pairs that wait to be settled, with room for what one more question may add without a look. */
+typedef struct waiting { size_t n; uint32_t query[PAIRS + QN_CELL_MOST], term[PAIRS + QN_CELL_MOST]; } waiting;
+
+QN_INLINE void settle_waiting(walk *w, questions *q, waiting *p, size_t room) {
+  if (p->n + room > PAIRS) {
+    settle_pairs(w, q, p->n, p->query, p->term);
+    p->n = 0;
   }
+}
+
+/* The terms in the cells of some questions. A cell that does not say, or none, puts the union's root on the stack, whose top is returned. */
+static size_t ask_cells(walk *w, questions *q, const uint32_t *cell, size_t top, waiting *p) {
+  const qn_cells *cells = w->room->cells;
   w->top = top + q->n; /* no further than this */
   for (size_t i = 0; i < q->n; i++) {
-    const uint32_t *first = NULL;
-    size_t count = 0;
-    if (cell[i] != QN_NO_GRID) {
-      first = cells->term + cells->start[cell[i]];
-      count = cells->start[cell[i] + 1] - cells->start[cell[i]];
-    }
-    if (!first || (count && *first == QN_CELL_CROWDED)) {
-      uint32_t root = normal->unions[q->un[i]].root;
-      w->room->query[top] = (uint32_t)i, w->room->node[top] = root;
-      top += root != QN_NO_ROOT;
+    if (cell[i] == NOWHERE) {
       continue;
     }
-    if (pairs + QN_CELL_MOST > PAIRS) {
-      settle_pairs(w, q, pairs, query, term);
-      pairs = 0;
+    const uint32_t *first = cell[i] == QN_NO_GRID ? NULL : cells->term + cells->start[cell[i]];
+    size_t count = first ? cells->start[cell[i] + 1] - cells->start[cell[i]] : 0;
+    if (QN_UNLIKELY(!first || (count && *first == QN_CELL_CROWDED))) {
+      w->room->query[top] = (uint32_t)i, w->room->node[top++] = w->scene->normal.unions[q->un[i]].root;
+      continue;
     }
+    settle_waiting(w, q, p, QN_CELL_MOST);
     for (int k = 0; k < QN_CELL_MOST; k += 4) {
-      _mm_storeu_si128((void *)(term + pairs + k), _mm_loadu_si128((const void *)(first + k)));
-      _mm_storeu_si128((void *)(query + pairs + k), _mm_set1_epi32((int)i));
+      _mm_storeu_si128((void *)(p->term + p->n + k), _mm_loadu_si128((const void *)(first + k)));
+      _mm_storeu_si128((void *)(p->query + p->n + k), _mm_set1_epi32((int)i));
     }
-    pairs += count;
+    p->n += count;
   }
-  settle_pairs(w, q, pairs, query, term);
+  return top;
+}
+
+/* Starts the questions: terms without a place in a hierarchy, the terms of unions of very few, and those listed in cells are asked at once; the
+   roots of the other hierarchies go on the stack, whose top is returned. */
+static size_t start(walk *w, questions *q, size_t top) {
+  const qn_normal *normal = &w->scene->normal;
+  const qn_cells *cells = w->room->cells;
+  uint32_t cell[QN_POINTS];
+  waiting p;
+  size_t in_cells = 0;
+  p.n = 0;
+  w->top = top + q->n; /* the stack may grow by so much meanwhile */
+  memset(q->verdict, QN_SURELY_OUT, q->n);
+  for (size_t i = 0; i < q->n; i++) {
+    const qn_union *u = &normal->unions[q->un[i]];
+    cell[i] = NOWHERE;
+    for (uint32_t k = 0; k < u->wide && q->verdict[i] != QN_SURELY_IN; k++) {
+      settle_waiting(w, q, &p, 1);
+      p.query[p.n] = (uint32_t)i, p.term[p.n++] = u->wide0 + k;
+    }
+    if (u->terms <= FEW) {
+      settle_waiting(w, q, &p, FEW);
+      for (uint32_t k = 0; k < u->terms; k++) {
+        p.query[p.n] = (uint32_t)i, p.term[p.n++] = u->term0 + k;
+      }
+    } else if (cells && cells->grid[q->un[i]] != QN_NO_GRID) {
+      cell[i] = cell_at(&cells->grids[cells->grid[q->un[i]]], w->room->box[q->point[i]]);
+      QN_FETCH(&cells->start[cell[i] == QN_NO_GRID ? 0 : cell[i]]);
+      in_cells = 1;
+    } else {
+      w->room->query[top] = (uint32_t)i, w->room->node[top++] = u->root;
+    }
+  }
+  top = in_cells ? ask_cells(w, q, cell, top, &p) : top;
+  if (p.n) {
+    settle_pairs(w, q, p.n, p.query, p.term);
+  }
   return top;
 }
 
@@ -304,26 +323,12 @@ static QN_NOINLINE size_t ask_cells(walk *w, questions *q, size_t top) {
 static void ask(walk *w, questions *q) {
   const qn_normal *normal = &w->scene->normal;
   qn_point_walk *room = w->room;
-  size_t bottom = w->top, top = bottom, any_wide = 0;
+  size_t bottom = w->top, top;
   if (bottom + q->n + PAIRS > QN_POINT_ROOM) {
     memset(q->verdict, QN_NOT_SURE, q->n);
     return;
   }
-  for (size_t i = 0; i < q->n; i++) {
-    const qn_union *u = &normal->unions[q->un[i]];
-    q->verdict[i] = QN_SURELY_OUT;
-    any_wide |= u->wide;
-    if (!room->cells && u->root != QN_NO_ROOT) {
-      room->query[top] = (uint32_t)i, room->node[top++] = u->root;
-    }
-  }
-  if (any_wide) {
-    w->top = top;
-    ask_wide(w, q);
-  }
-  if (room->cells) {
-    top = ask_cells(w, q, top);
-  }
+  top = start(w, q, bottom);
   while (top > bottom) {
     uint32_t query[RUN], node[RUN], pair_query[PAIRS + QN_BVH_WIDE], pair_term[PAIRS + QN_BVH_WIDE];
     size_t run = top - bottom < RUN ? top - bottom : RUN, pairs = 0;
@@ -363,14 +368,15 @@ static void ask(walk *w, questions *q) {
 
 /* --- a batch ---------------------------------------------------------------------------------------------------------- */
 
-/* A float not above and one not below v: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
-QN_INLINE float below(double v) {
-  float f = (float)v;
-  return f - (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
-}
-QN_INLINE float above(double v) {
-  float f = (float)v;
-  return f + (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
+/* The floats about a point: 2u weight to either side, then outward by more than a float's rounding, which moves by under 2^-24 of it or by
+   under the smallest normal float. The fourth is any number. */
+QN_INLINE void box_of(const qn_wide_point *p, float box[8]) {
+  const __m128 size = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff)), step = _mm_set1_ps(QN_FLOAT_STEP), tiny = _mm_set1_ps(QN_FLOAT_TINY);
+  const __m128d xy = _mm_loadu_pd(p->x), zw = _mm_loadu_pd(p->x + 2), e = _mm_set1_pd(2 * QN_U * p->weight);
+  __m128 low = _mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(xy, e)), _mm_cvtpd_ps(_mm_sub_pd(zw, e)));
+  __m128 high = _mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(xy, e)), _mm_cvtpd_ps(_mm_add_pd(zw, e)));
+  _mm_store_ps(box, _mm_sub_ps(low, _mm_add_ps(_mm_mul_ps(_mm_and_ps(low, size), step), tiny)));
+  _mm_store_ps(box + 4, _mm_add_ps(high, _mm_add_ps(_mm_mul_ps(_mm_and_ps(high, size), step), tiny)));
 }
 
 void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const qn_wide_point *points, uint8_t *verdict, qn_wide_counts *counts);
@@ -379,11 +385,7 @@ void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, 
   questions q;
   q.n = n;
   for (size_t i = 0; i < n; i++) {
-    double e = 2 * QN_U * points[i].weight;
-    room->box[i][3] = room->box[i][7] = 0;
-    for (int k = 0; k < 3; k++) {
-      room->box[i][k] = below(points[i].x[k] - e), room->box[i][4 + k] = above(points[i].x[k] + e);
-    }
+    box_of(&points[i], room->box[i]);
     q.point[i] = (uint32_t)i;
     q.un[i] = scene->normal.root;
   }
