@@ -141,6 +141,27 @@ typedef struct quoin_hit {
 QUOIN_API quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out);
 QUOIN_API quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out);
 
+/* What a ray meets first, in short. */
+typedef struct quoin_spot {
+  double t;         /* see quoin_first_spots */
+  uint32_t surface; /* the scene's number of the surface, below quoin_scene_info.distinct_surfaces; QUOIN_NO_SURFACE: no boundary is met */
+  uint32_t leaving; /* 1: the ray was inside before */
+} quoin_spot;
+#define QUOIN_NO_SURFACE UINT32_MAX
+
+enum { QUOIN_WANT_T = 2 };
+
+/* The first boundaries of n rays, without what a picture wants of them: several times as fast as quoin_first_hits. Which surface is met is exact. t is correctly
+   rounded when want has QUOIN_WANT_T; else it is only near the true parameter (an error that is far below the distance to any other boundary,
+   but not the same on every machine). Neighbours in the array that go the same way are the fastest, 64 at a time. Threads: one work each. */
+QUOIN_API quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out);
+
+/* Whether each of n rays is inside the solid anywhere between from and to: blocked[i] is 1 where quoin_ray_intervals would give at least one interval, else 0.
+   Exact, and faster than the first boundary: a ray is done at the first sign of matter. For shadows, visibility and collisions along a segment (from = 0, to = 1 with
+   d the way from one end to the other). progress: null, or asked now and then whether to stop (QUOIN_E_CANCELLED; `blocked` is then incomplete). Threads:
+   one work each. */
+QUOIN_API quoin_status quoin_rays_blocked(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, const quoin_progress *progress, uint8_t *blocked);
+
 /* A grid of rays, width by height, as a camera takes it: with s = (x + 0.5)/width and r = (y + 0.5)/height, the ray of column
    x and row y starts at (o + s u) + r v and goes along d; or, when `converging`, starts at o and goes along (d + s u) + r v; each
    coordinate computed in doubles in that order, and the ray is exactly those doubles. */
@@ -150,16 +171,6 @@ typedef struct quoin_grid {
   int converging;
   double from, to; /* as in quoin_ray */
 } quoin_grid;
-
-/* What a ray of a grid meets first. */
-typedef struct quoin_spot {
-  double t;         /* see quoin_grid_hits */
-  uint32_t surface; /* the scene's number of the surface, below quoin_scene_info.distinct_surfaces; QUOIN_NO_SURFACE: no boundary is met */
-  uint32_t leaving; /* 1: the ray was inside before */
-} quoin_spot;
-#define QUOIN_NO_SURFACE UINT32_MAX
-
-enum { QUOIN_WANT_T = 2 };
 
 /* The first boundaries of the rays in columns x0 to x1 - 1 and rows y0 to y1 - 1 of a grid, row after row into out. Which surface is
    met is exact. t is correctly rounded when want has QUOIN_WANT_T; else it is only near the true parameter (an error that is far below

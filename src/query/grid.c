@@ -71,7 +71,8 @@ static void fill_shared(const quoin_grid *g, qn_packet *p) {
     p->on[lane] = QUOIN_NO_SURFACE;
   }
   p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
-  p->few = 0;
+  p->few = QN_MANY_LANES;
+  p->any = 0;
   p->tile = g->converging ? QN_TILE_DIRECTIONS : QN_TILE_ORIGINS;
 }
 
@@ -96,37 +97,6 @@ static int has_zero(const qn_packet *p) {
   return zero;
 }
 
-static quoin_spot spot_of(const qn_seen *seen) {
-  return seen->surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen->t, seen->surface, seen->leaving};
-}
-
-/* One tile into eight rows of eight spots. */
-static quoin_status look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride) {
-  qn_packet_hits hits;
-  qn_look_run(work, packet, &hits);
-  const uint64_t woven = hits.unsure | hits.tied, found = hits.found & ~woven;
-  _Alignas(64) double rounded[QN_LANES];
-  const double *t = hits.t;
-  uint64_t sure = found;
-  if (want & QUOIN_WANT_T && found) {
-    sure = work->wide->round(work->scene, packet, &hits, found, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
-    t = rounded;
-  }
-  work->wide->spots(&hits, found, t, out, stride);
-  quoin_status status = QUOIN_OK;
-  for (uint64_t m = found & ~sure; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
-    unsigned lane = qn_trailing_zeros(m);
-    status = qn_look_round(work, packet, &hits, lane, &out[qn_lane_row(lane) * stride + qn_lane_column(lane)].t);
-  }
-  for (uint64_t m = woven; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
-    unsigned lane = qn_trailing_zeros(m);
-    qn_seen seen;
-    status = qn_look_woven(work, packet, lane, want & QUOIN_WANT_T ? QN_LOOK_T : 0, &seen);
-    out[qn_lane_row(lane) * stride + qn_lane_column(lane)] = spot_of(&seen);
-  }
-  return status;
-}
-
 quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, unsigned want,
                              quoin_spot *out) {
   if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height) {
@@ -142,6 +112,7 @@ quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const q
   qn_packet packet;
   fill_shared(grid, &packet);
   const size_t stride = x1 - x0;
+  const unsigned look = want & QUOIN_WANT_T ? QN_LOOK_T : 0;
   double across[STRIP][3][8];
   for (size_t strip = x0; strip < x1; strip += 8 * STRIP) {
     for (size_t i = 0; i < STRIP && strip + 8 * i < x1; i++) {
@@ -159,7 +130,7 @@ quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const q
         }
         packet.live = whole ? ~(uint64_t)0 : lanes_within(columns, rows);
         quoin_spot part[QN_LANES], *tile = out + (y - y0) * stride + (x - x0);
-        quoin_status status = look_tile(work, &packet, want, whole ? tile : part, whole ? stride : 8);
+        quoin_status status = qn_look_tile(work, &packet, look, whole ? tile : part, whole ? stride : 8);
         if (status != QUOIN_OK) {
           return status;
         }

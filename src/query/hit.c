@@ -119,3 +119,34 @@ quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t
 quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out) {
   return quoin_first_hits(scene, work, 1, ray, out);
 }
+
+/* QUOIN_OK when all are rays. */
+static quoin_status are_rays(const quoin_scene *scene, const quoin_work *work, size_t n, const quoin_ray *rays, const void *out) {
+  if (!scene || !work || work->scene != scene || (n != 0 && (!rays || !out))) {
+    return QUOIN_E_ARGUMENT;
+  }
+  for (size_t i = 0; i < n; i++) {
+    if (!is_ray(&rays[i])) {
+      return QUOIN_E_ARGUMENT;
+    }
+  }
+  return QUOIN_OK;
+}
+
+quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out) {
+  quoin_status status = are_rays(scene, work, n, rays, out);
+  return status == QUOIN_OK ? qn_look_spots(work, n, rays, want & QUOIN_WANT_T ? QN_LOOK_T : 0, out) : status;
+}
+
+enum { RUN = 4096 }; /* rays between two questions whether to stop */
+
+quoin_status quoin_rays_blocked(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, const quoin_progress *progress, uint8_t *blocked) {
+  quoin_status status = are_rays(scene, work, n, rays, blocked);
+  for (size_t at = 0; at < n && status == QUOIN_OK; at += RUN) {
+    if (progress && progress->report && progress->report(progress->user, (double)at / (double)n)) {
+      return QUOIN_E_CANCELLED;
+    }
+    status = qn_look_blocked(work, n - at < RUN ? n - at : RUN, rays + at, NULL, blocked + at);
+  }
+  return status;
+}

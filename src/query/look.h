@@ -25,6 +25,12 @@ enum {
    rounding, a comparison of two nearly equal places. */
 quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out);
 
+/* The first boundaries as the public call gives them; runs of 64 that go the same way do best as 8 by 8 tiles, row after row. want: QN_LOOK_T or 0. */
+quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out);
+
+/* Whether each ray is inside the solid anywhere in its range: blocked[i] is 1 or 0. */
+quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked);
+
 /* The same for lanes that are in a packet already. *met: the lanes that meet a boundary; the others' entries are not set. */
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met);
 
@@ -35,6 +41,8 @@ void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *
 /* Answers lane by lane, for whoever has run a packet: by the woven path, and a found lane's parameter, correctly rounded. */
 quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out);
 quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t);
+/* A packet's answers as rows of eight spots. */
+quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride);
 /* Runs a packet's body and counts; without a normal form every lane is unsure. */
 void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits);
 

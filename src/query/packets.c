@@ -2,6 +2,8 @@
 #include "query/look.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static quoin_ray ray_of(const qn_packet *p, unsigned lane) {
   quoin_ray ray = {{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
@@ -50,7 +52,7 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
 
 void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   const quoin_scene *scene = work->scene;
-  hits->found = hits->tied = 0, hits->unsure = packet->live;
+  hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
   if (scene->normal.made) {
     qn_counts *counts = qn_scratch_counts(work->scratch);
     qn_wide_counts wide = {0};
@@ -74,7 +76,12 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   }
   if (want & QN_LOOK_T) {
     _Alignas(64) double rounded[QN_LANES];
-    uint64_t sure = work->wide->round(work->scene, packet, &hits, hits.found & ~woven, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
+    uint64_t sure = hits.found & ~woven, *made = &qn_scratch_counts(work->scratch)->exact_forms;
+    if (packet->few == QN_ONE_LANE) {
+      sure = sure && work->wide->round_one(work->scene, packet, &hits, rounded, made);
+    } else {
+      sure = work->wide->round(work->scene, packet, &hits, sure, rounded, made);
+    }
     for (uint64_t m = sure; m; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
       out[lane].t = rounded[lane];
@@ -99,6 +106,36 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   return QUOIN_OK;
 }
 
+static quoin_spot spot_of(const qn_seen *seen) {
+  return seen->surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen->t, seen->surface, seen->leaving};
+}
+
+quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride) {
+  qn_packet_hits hits;
+  qn_look_run(work, packet, &hits);
+  const uint64_t woven = hits.unsure | hits.tied, found = hits.found & ~woven;
+  _Alignas(64) double rounded[QN_LANES];
+  const double *t = hits.t;
+  uint64_t sure = found;
+  if (want & QN_LOOK_T && found) {
+    sure = work->wide->round(work->scene, packet, &hits, found, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
+    t = rounded;
+  }
+  work->wide->spots(&hits, found, t, out, stride);
+  quoin_status status = QUOIN_OK;
+  for (uint64_t m = found & ~sure; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    status = qn_look_round(work, packet, &hits, lane, &out[qn_lane_row(lane) * stride + qn_lane_column(lane)].t);
+  }
+  for (uint64_t m = woven; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    qn_seen seen;
+    status = qn_look_woven(work, packet, lane, want, &seen);
+    out[qn_lane_row(lane) * stride + qn_lane_column(lane)] = spot_of(&seen);
+  }
+  return status;
+}
+
 /* Whether directions are within some tens of degrees of the first one. Rays that are not are tens of times slower in a packet than alone. */
 static int go_together(const quoin_ray *rays, size_t n) {
   const double *a = rays[0].d, square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
@@ -110,33 +147,49 @@ static int go_together(const quoin_ray *rays, size_t n) {
   return together;
 }
 
-/* Puts rays into the first lanes of a packet and repeats the last in the others up to `lanes`. */
-static void fill(qn_packet *p, size_t lanes, size_t n, const quoin_ray *rays, const uint32_t *on) {
-  for (size_t lane = 0; lane < lanes; lane++) {
-    size_t i = lane < n ? lane : n - 1;
-    for (int k = 0; k < 3; k++) {
-      p->o[k][lane] = rays[i].o[k], p->d[k][lane] = rays[i].d[k];
-    }
-    p->from[lane] = rays[i].from, p->to[lane] = rays[i].to;
-    p->on[lane] = on ? on[i] : QUOIN_NO_SURFACE;
+/* Where ray i of a run goes: into lane i; or as an 8 by 8 tile, row after row. */
+typedef enum order { IN_ORDER, AS_TILE } order;
+QN_INLINE unsigned lane_for(order way, unsigned i) {
+  if (way == IN_ORDER) {
+    return i;
   }
-  p->live = n == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << n) - 1;
-  p->few = n == 1 ? QN_ONE_LANE : lanes == QN_FEW ? QN_FEW_LANES : QN_MANY_LANES;
-  p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
+  unsigned c = i & 7, r = i >> 3 & 7;
+  return (c & 1) | (r & 1) << 1 | (c & 2) << 1 | (r & 2) << 2 | (c & 4) << 2 | (r & 4) << 3;
+}
+
+/* Puts rays into the first lanes of a packet and repeats the last in the others up to `lanes`. kept: the packet has been through its body with as many lanes. */
+static void fill(qn_packet *p, order way, unsigned lanes, unsigned n, const quoin_ray *rays, const uint32_t *on, int kept) {
+  int new_directions = !kept;
+  uint64_t live = 0;
+  for (unsigned i = 0; i < lanes; i++) {
+    const unsigned lane = lane_for(way, i), from = i < n ? i : n - 1;
+    const quoin_ray *ray = &rays[from];
+    for (int k = 0; k < 3; k++) {
+      new_directions |= kept && p->d[k][lane] != ray->d[k]; /* a zero's sign counts for nothing */
+      p->o[k][lane] = ray->o[k], p->d[k][lane] = ray->d[k];
+    }
+    p->from[lane] = ray->from, p->to[lane] = ray->to;
+    p->on[lane] = on ? on[from] : QUOIN_NO_SURFACE;
+    live |= (uint64_t)(i < n) << lane;
+  }
+  p->live = live;
+  p->few = lanes == 1 ? QN_ONE_LANE : lanes == QN_FEW ? QN_FEW_LANES : QN_MANY_LANES;
+  p->new_origins = 1, p->new_directions = new_directions, p->kept_ranges = 0;
   p->tile = QN_TILE_NONE;
+  p->any = 0;
 }
 
 int qn_rays_together(const quoin_ray *rays, size_t n) {
   return go_together(rays, n);
 }
 void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays) {
-  fill(packet, lanes, n, rays, NULL);
+  fill(packet, IN_ORDER, (unsigned)lanes, (unsigned)n, rays, NULL, 0);
 }
 
-static quoin_status look_together(quoin_work *work, qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
+static quoin_status look_together(quoin_work *work, qn_packet *packet, unsigned lanes, unsigned n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
   qn_seen seen[QN_LANES];
   uint64_t met;
-  fill(packet, lanes, n, rays, on);
+  fill(packet, IN_ORDER, lanes, n, rays, on, 0);
   quoin_status status = qn_look_packet(work, packet, want, seen, &met);
   for (size_t i = 0; i < n; i++) {
     out[i] = met >> i & 1 ? seen[i] : (qn_seen){.surface = QUOIN_NO_SURFACE};
@@ -150,14 +203,79 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
   for (size_t run = 0; run < n && status == QUOIN_OK; run += QN_LANES) {
     size_t in_run = n - run < QN_LANES ? n - run : QN_LANES;
     if (in_run > 2 * QN_FEW && go_together(rays + run, in_run)) {
-      status = look_together(work, &packet, QN_LANES, in_run, rays + run, on ? on + run : NULL, want, out + run);
+      status = look_together(work, &packet, QN_LANES, (unsigned)in_run, rays + run, on ? on + run : NULL, want, out + run);
       continue;
     }
     for (size_t at = run; at < run + in_run && status == QUOIN_OK;) { /* a few, or one by one */
       size_t count = run + in_run - at < QN_FEW ? run + in_run - at : QN_FEW, step = count;
       count = count > 1 && !go_together(rays + at, count) ? 1 : count;
       for (step += at; at < step && status == QUOIN_OK; at += count) {
-        status = look_together(work, &packet, QN_FEW, count, rays + at, on ? on + at : NULL, want, out + at);
+        status = look_together(work, &packet, count == 1 ? 1 : QN_FEW, (unsigned)count, rays + at, on ? on + at : NULL, want, out + at);
+      }
+    }
+  }
+  return status;
+}
+
+quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out) {
+  qn_packet packet;
+  quoin_status status = QUOIN_OK;
+  unsigned last = 0;
+  for (size_t at = 0, count; at < n && status == QUOIN_OK; at += count) {
+    count = n - at < QN_LANES ? n - at : QN_LANES;
+    unsigned lanes = count > 2 * QN_FEW && go_together(rays + at, count) ? QN_LANES : count > 1 && go_together(rays + at, count = count < QN_FEW ? count : QN_FEW) ? QN_FEW : 1;
+    count = lanes == 1 ? 1 : count;
+    fill(&packet, lanes == QN_LANES ? AS_TILE : IN_ORDER, lanes, (unsigned)count, rays + at, NULL, lanes == last);
+    last = lanes;
+    if (lanes == QN_LANES && count == QN_LANES) {
+      status = qn_look_tile(work, &packet, want, out + at, 8);
+    } else if (lanes == QN_LANES) {
+      quoin_spot part[QN_LANES];
+      status = qn_look_tile(work, &packet, want, part, 8);
+      memcpy(out + at, part, count * sizeof *out);
+    } else {
+      qn_seen seen[QN_LANES];
+      uint64_t met = 0;
+      status = qn_look_packet(work, &packet, want, seen, &met);
+      for (size_t i = 0; i < count; i++) {
+        out[at + i] = met >> i & 1 ? spot_of(&seen[i]) : (quoin_spot){.surface = QUOIN_NO_SURFACE};
+      }
+    }
+  }
+  return status;
+}
+
+/* One lane by the woven path. */
+static quoin_status weave_blocked(quoin_work *work, const quoin_ray *ray, uint8_t *blocked) {
+  qn_query_begin(work);
+  qn_line line;
+  qn_line_from_doubles(ray->o, ray->d, &line);
+  const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
+  qn_woven woven;
+  quoin_status status = qn_weave(work->scene, work->scratch, &line, &range, QN_WANT_FIRST, &woven);
+  *blocked = status == QUOIN_OK && woven.inside_count > 0;
+  return status == QUOIN_OK ? qn_scratch_ctx(work->scratch)->failed : status;
+}
+
+quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked) {
+  qn_packet packet;
+  quoin_status status = QUOIN_OK;
+  const char *e = getenv("QM"); size_t M = e ? (size_t)atoi(e) : 1;
+  unsigned last = 0;
+  for (size_t at = 0, count; at < n && status == QUOIN_OK; at += count) {
+    count = n - at < M ? n - at : M;
+    unsigned lanes = count > 1 && go_together(rays + at, count) ? (unsigned)M : 1;
+    count = lanes == 1 ? 1 : count;
+    fill(&packet, lanes == QN_LANES ? AS_TILE : IN_ORDER, lanes, (unsigned)count, rays + at, on ? on + at : NULL, lanes == last);
+    packet.any = 1;
+    last = lanes;
+    qn_packet_hits hits;
+    qn_look_run(work, &packet, &hits);
+    for (unsigned i = 0; i < count; i++) {
+      unsigned lane = lanes == QN_LANES ? lane_for(AS_TILE, i) : i;
+      blocked[at + i] = hits.found >> lane & 1;
+      if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
+        status = weave_blocked(work, &rays[at + i], &blocked[at + i]);
       }
     }
   }

@@ -11,6 +11,7 @@
   void qn_spans_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *); \
   void qn_points_##isa(const struct quoin_scene *, qn_point_walk *, size_t, const qn_wide_point *, uint8_t *, qn_wide_counts *); \
   void qn_spots_##isa(const qn_packet_hits *, uint64_t, const double *, quoin_spot *, size_t);           \
+  int qn_round_one_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, double *, uint64_t *); \
   uint64_t qn_round_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, uint64_t, double *, uint64_t *);
 BODIES_OF(sse2)
 BODIES_OF(avx2)
@@ -19,7 +20,7 @@ BODIES_OF(avx512)
 #define ROW(isa, lanes)                                                                                                                  \
   {                                                                                                                                      \
     .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .spans = qn_spans_##isa,             \
-    .spans_few = qn_spans_few_##isa, .points = qn_points_##isa, .spots = qn_spots_##isa, .round = qn_round_##isa                          \
+    .spans_few = qn_spans_few_##isa, .points = qn_points_##isa, .spots = qn_spots_##isa, .round = qn_round_##isa, .round_one = qn_round_one_##isa                          \
   }
 /* From the widest to the one that always runs. */
 static const qn_wide bodies[] = {ROW(avx512, 8), ROW(avx2, 4), ROW(sse2, 2)};

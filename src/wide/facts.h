@@ -89,6 +89,7 @@ static void fill_tile(qn_packet *p, double (*to)[QN_LANES]) {
 
 static void see_directions(qn_packet *p) {
   const vd zero = vset(0), one = vset(1);
+  vd shortest = vset(INFINITY), longest = zero, most_idd = zero;
   for (int g = 0; g < QN_LANES_NOW; g += QN_W) {
     vd dd = zero;
     for (int i = 0; i < 3; i++) {
@@ -97,17 +98,18 @@ static void see_directions(qn_packet *p) {
       vstore(p->inv[i] + g, vpick(none, zero, vdiv(one, vpick(none, one, d))));
       dd = vfma(d, d, dd);
     }
-    vstore(p->idd + g, vdiv(one, dd));
+    vd idd = vdiv(one, dd);
+    vstore(p->idd + g, idd);
+    shortest = vmin(shortest, dd), longest = vmax(longest, dd), most_idd = vmax(most_idd, idd);
   }
+  _Alignas(64) double x[QN_W], y[QN_W], z[QN_W];
+  vstore(x, shortest), vstore(y, longest), vstore(z, most_idd);
+  for (int i = 1; i < QN_W; i++) {
+    x[0] = least(x[0], x[i]), y[0] = most(y[0], y[i]), z[0] = most(z[0], z[i]);
+  }
+  p->dd_min = (2 - QN_WIDE_SLACK) * x[0], p->dd_max = QN_WIDE_SLACK * y[0];
+  p->d_most = sqrt(p->dd_max), p->idd_most = QN_WIDE_SLACK * QN_WIDE_SLACK * z[0], p->shy = p->idd_most * p->d_most * QN_WIDE_SHY_ROOT;
   double low, high;
-  extremes(p->idd, &low, &high);
-  for (int k = 1; k < SUBS; k++) {
-    double l, h;
-    extremes(p->idd + k * SUB_LANES, &l, &h);
-    low = least(low, l), high = most(high, h);
-  }
-  p->dd_min = 1 / (QN_WIDE_SLACK * high), p->dd_max = QN_WIDE_SLACK / low;
-  p->d_most = sqrt(p->dd_max), p->idd_most = QN_WIDE_SLACK * QN_WIDE_SLACK * high, p->shy = sqrt(p->idd_most * (1 / QN_WIDE_SHY));
   for (int i = 0; i < 3; i++) {
     double dlow = INFINITY, dhigh = -INFINITY;
     int finite = 1;
@@ -169,16 +171,18 @@ static int facts(walk *w, qn_packet *p) {
   if (!p->kept_ranges) {
     see_ranges(p);
   }
-  double reach2 = 0;
+  double far = 0; /* at least the length of the way from an origin to any place of the solid */
   int in_range = p->dd_min >= 1 / (QN_WIDE_LARGEST * QN_WIDE_LARGEST) && p->dd_max <= QN_WIDE_LARGEST * QN_WIDE_LARGEST;
   for (int i = 0; i < 3; i++) {
     w->all_omin[i] = down(p->low[i]), w->all_omax[i] = up(p->high[i]);
     w->all_imin[i] = p->all_imin[i], w->all_imax[i] = p->all_imax[i];
-    double far = farthest(f, i, 0) + most(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
-    reach2 += far * far;
+    far += farthest(f, i, 0) + most(fabs(w->scene->min[i]), fabs(w->scene->max[i]));
     in_range &= farthest(f, i, 0) <= QN_WIDE_LARGEST && w->all_imin[i] >= -QN_WIDE_LARGEST && w->all_imax[i] <= QN_WIDE_LARGEST;
   }
-  f->reach = QN_WIDE_SLACK * sqrt(reach2 * p->idd_most);
+#if QN_LANES_NOW == 1
+  beam_make(w);
+#endif
+  f->reach = QN_WIDE_SLACK * far * p->idd_most * p->d_most;
   return in_range;
 }
 

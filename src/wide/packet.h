@@ -27,6 +27,7 @@ typedef struct qn_packet {
      directions keeps what follows from them. */
   int new_origins, new_directions;
   int kept_ranges; /* from, to and on are as they were when the body last saw them */
+  int any; /* not the first boundary: whether the ray is in the solid anywhere in its range; only `found` and `unsure` are answered */
   int few; /* QN_FEW_LANES, QN_ONE_LANE: only the first ones are there */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
      body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. TILE_PAIRS: so they are, and are rounded; the lines are o + olow and
@@ -65,6 +66,9 @@ typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, 
    they are. The other lanes' t is arbitrary: they go through qn_place_round. *made is increased by the exact forms made. */
 typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
                                 uint64_t *made);
+
+/* The same for the first lane alone, which is found: whether *t is certainly the nearest. */
+typedef int (*qn_round_one_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, double *t, uint64_t *made);
 
 /* Every stretch of each lane in each leaf that it meets: for whoever merges them (query/spans.h). Lanes lie in groups of `width`; slot s of
    group g holds one leaf's stretches, four times `width` doubles from ends + ((g capacity + s) 4 width): where they begin, where they
@@ -106,6 +110,7 @@ typedef struct qn_wide {
   unsigned width;               /* lanes of a group in qn_packet_spans */
   qn_points_fn points; /* wide/points.h */
   qn_spots_fn spots;
+  qn_round_one_fn round_one;
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

@@ -272,12 +272,13 @@ QN_INLINE int push_children(const qn_bvh_node *n, unsigned meets, const float ne
   return top;
 }
 
-/* No lane starts before `start` or has a best place after `end`. meets, near: the root's children that may be met, and where. */
-static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint64_t mask, lanes *best, float start, float end, unsigned meets, float near[8]) {
+/* No lane starts before `start` or has a best place after `end`. meets, near: the root's children that may be met, and where. any: a lane is done when a
+   place is found, the first or not. */
+static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint64_t mask, lanes *best, float start, float end, unsigned meets, float near[8], int any) {
   const qn_nterm *terms = w->normal->terms;
   uint64_t found = 0, better = 0;
   for (uint32_t i = 0; i < un->wide; i++) {
-    term_enter(w, &terms[un->wide0 + i], from, mask, best, &better);
+    term_enter(w, &terms[un->wide0 + i], from, any ? mask & ~better : mask, best, &better);
   }
   if (un->root == QN_NO_ROOT) {
     return better & ~w->unsure;
@@ -286,7 +287,12 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
   int top = push_children(&w->normal->nodes[un->root], meets, near, stack, 0);
   for (;;) {
     if (better) {
-      found |= better, better = 0;
+      found |= better;
+      mask &= any ? ~better : ~(uint64_t)0;
+      better = 0;
+      if (!mask) {
+        return found & ~w->unsure;
+      }
       end = latest(w, best, mask & ~w->unsure);
     }
     do {
@@ -331,7 +337,7 @@ static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mas
   _Alignas(32) float near[8];
   float start = earliest(w, from, mask), end = latest(w, best, mask);
   unsigned meets = root_meets(w, un, start, end, near);
-  return union_walk(w, un, from, mask, best, start, end, meets, near);
+  return union_walk(w, un, from, mask, best, start, end, meets, near, 0);
 }
 
 /* Boxes of the lanes' points, one for each sub-packet; slack for their rounding. */
@@ -414,6 +420,27 @@ static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
   return moved & ~w->unsure;
 }
 
+/* The lanes that are outside the scene's set somewhere in their range. */
+static uint64_t any_outside(walk *w, const lanes *start, uint64_t mask) {
+  const qn_packet *p = w->f.p;
+  lanes at = *start;
+  uint64_t found = 0;
+  union_leave(w, w->normal->root, &at, mask);
+  for (uint64_t m = mask & ~w->unsure; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    double gap = p->to[k] - at.t[k];
+    if (gap < -w->tolerance[k] || at.t[k] >= QN_FAR) {
+      continue;
+    }
+    if (gap > w->tolerance[k] && fabs(at.t[k]) <= w->f.reach) {
+      found |= (uint64_t)1 << k;
+    } else {
+      w->unsure |= (uint64_t)1 << k;
+    }
+  }
+  return found;
+}
+
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
@@ -428,7 +455,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   _Alignas(32) float near[8];
   const unsigned meets = root_meets(&w, root, packet->soonest, packet->latest, near);
   counts->packets++;
-  if (root->wide == 0 && !meets) { /* nothing near: no ray need be made */
+  if (root->wide == 0 && !meets && !(packet->any && scene->normal.complement)) { /* nothing near: no ray need be made */
     counts->nodes += w.counts.nodes;
     return;
   }
@@ -455,7 +482,18 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     unsigned k = qn_trailing_zeros(m);
     w.unsure |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
   }
-  uint64_t found = mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near) : 0;
+  if (packet->any) {
+    hits->found = (scene->normal.complement ? any_outside(&w, start, mask) : mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near, 1) : 0);
+    for (uint64_t m = scene->normal.complement ? 0 : hits->found; m; m &= m - 1) {
+      unsigned k = qn_trailing_zeros(m);
+      w.unsure |= (uint64_t)!(fabs(best.t[k]) <= w.f.reach) << k; /* as below */
+    }
+    hits->unsure = w.unsure & packet->live;
+    hits->found &= packet->live & ~w.unsure;
+    counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
+    return;
+  }
+  uint64_t found = mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near, 0) : 0;
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
   for (int g = 0; g < QN_GROUPS; g++) {
     within |= (uint64_t)vsigns(vload(best.p + g * QN_W)) << (g * QN_W); /* QN_STARTS_ON */

@@ -24,6 +24,7 @@ QN_INLINE uint64_t vword(vd a) {
 }
 QN_INLINE vd vset(double a) { return a; }
 QN_INLINE vd vload(const double *p) { return *p; }
+QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return p[0][i]; }
 QN_INLINE void vstore(double *p, vd a) { *p = a; }
 QN_INLINE vd vadd(vd a, vd b) { return a + b; }
 QN_INLINE vd vsub(vd a, vd b) { return a - b; }

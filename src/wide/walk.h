@@ -5,6 +5,8 @@
 
 #include "wide/solve.h"
 
+#include <stddef.h>
+
 #if QN_LANES_NOW == 64
 typedef qn_ends lanes;
 #else
@@ -16,6 +18,16 @@ enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK =
 /* How a packet's directions lie on an axis. */
 enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
 
+#if QN_LANES_NOW == 1
+/* A single ray against boxes: which side of a box is met first along each axis, from where, and 1/d; an axis along which the ray does not go has a huge one,
+   so that its slab is met at a huge |t| or none. */
+typedef struct beam {
+  int ready; /* 0: some 1/d is no float */
+  unsigned near[3], far[3]; /* places in a node */
+  float near_o[3], far_o[3], inv[3];
+} beam;
+#endif
+
 typedef struct walk {
   packet_facts f;
   const struct quoin_scene *scene;
@@ -26,6 +38,9 @@ typedef struct walk {
   double tie[TIES][QN_LANES_NOW];
   qn_wide_counts counts;
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
+#if QN_LANES_NOW == 1
+  beam beam;
+#endif
   _Alignas(64) double tolerance[QN_LANES_NOW]; /* the sum of any two errors of this lane so far */
 } walk;
 
@@ -110,7 +125,44 @@ QN_INLINE unsigned slabs(const int axis[3], vf8 bmin[3], vf8 bmax[3], vf8 omin[3
   return meets & fle(near, far);
 }
 
+#if QN_LANES_NOW == 1
+enum { MAX_AT = offsetof(qn_bvh_node, max) / sizeof(float) };
+
+static void beam_make(walk *w) {
+  const qn_packet *p = w->f.p;
+  w->beam.ready = 1;
+  for (int i = 0; i < 3; i++) {
+    const int up_ = p->axis[i] != AXIS_DOWN;
+    w->beam.ready &= p->axis[i] != AXIS_MIXED;
+    w->beam.near[i] = (up_ ? 0 : MAX_AT) + 8 * (unsigned)i, w->beam.far[i] = (up_ ? MAX_AT : 0) + 8 * (unsigned)i;
+    w->beam.near_o[i] = up_ ? w->all_omax[i] : w->all_omin[i], w->beam.far_o[i] = up_ ? w->all_omin[i] : w->all_omax[i];
+    w->beam.inv[i] = p->axis[i] == AXIS_FLAT ? QN_WIDE_ALONG : (float)p->inv[i][0];
+  }
+}
+
+/* Each product is within 3 2^-24 of itself (and an underflow) of where its plane is met from the origin's enclosure; so are the largest and the least. */
+QN_INLINE unsigned beam_meets(const beam *b, const qn_bvh_node *n, float start, float end, float near[8]) {
+  const float *planes = (const float *)(const void *)n; /* min, and max from MAX_AT */
+  vf8 first = fset(-INFINITY), last = fset(INFINITY), zero = fset(0), widen = fset(QN_WIDE_FLOAT), tiny = fset(QN_FLOAT_TINY);
+  for (int i = 0; i < 3; i++) {
+    vf8 inv = fset(b->inv[i]);
+    first = fmax8(first, fmul(fsub(fload(planes + b->near[i]), fset(b->near_o[i])), inv));
+    last = fmin8(last, fmul(fsub(fload(planes + b->far[i]), fset(b->far_o[i])), inv));
+  }
+  first = fsub(first, fadd(fmul(fmax8(first, fsub(zero, first)), widen), tiny));
+  last = fadd(last, fadd(fmul(fmax8(last, fsub(zero, last)), widen), tiny));
+  first = fmax8(fset(start), first), last = fmin8(fset(end), last);
+  fstore(near, first);
+  return fle(first, last); /* an empty slot's box is inverted */
+}
+#endif
+
 QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, float end, float near[8]) {
+#if QN_LANES_NOW == 1
+  if (QN_LIKELY(w->beam.ready)) {
+    return beam_meets(&w->beam, n, start, end, near);
+  }
+#endif
   vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
   for (int i = 0; i < 3; i++) {
     bmin[i] = fload(n->min[i]), bmax[i] = fload(n->max[i]);

@@ -16,7 +16,8 @@
 static const char USAGE[] =
     "usage: bench_scenes MODEL.csg CAMERA [options]\n"
     "  --paths A,B     only these (single rows tiles grid-t grid intervals-single intervals intervals-exact shadow-single shadow\n"
-    "                  random-single random points-single points); default all\n"
+    "                  random-single random spots-single spots random-spots-single random-spots blocked-single blocked points-single points);\n"
+    "                  default all\n"
     "  --size N        the grid is N x N; default the camera file's\n"
     "  --seconds S     time for each path and round; default 0.3\n"
     "  --rounds N      rounds, of which the median is given; default 3\n"
@@ -92,7 +93,7 @@ static int ask_oracle(bench *b, const path *p, const path_lane *lane, size_t blo
   long n = oracle_ray(b->oracle, lane->asked[k].o, d, MOST_STRETCHES, found, &zero);
   out->place = lane->place[k];
   out->places = PATH_NO_PLACES;
-  int first = p->question == ASK_HITS || p->question == ASK_SPOTS;
+  int first = p->question == ASK_HITS || p->question == ASK_SPOTS || p->question == ASK_BLOCKED;
   out->count = first ? n > 0 : (uint32_t)n;
   out->t = first && n > 0 ? zero ? found[0].leave : found[0].enter : INFINITY;
   if (first && n > 0) {
@@ -124,6 +125,9 @@ static int draw_samples(bench *b, const path *p, reference *ref, path_lane *lane
 
 /* Whether an answer is what the oracle says. */
 static int agrees(const path *p, const path_answer *a, const sample *s) {
+  if (p->question == ASK_BLOCKED) { /* no ray of the lists starts inside */
+    return a->count == s->count;
+  }
   if (p->near) {
     return a->count == s->count && (s->count == 0 || fabs(a->t - s->t) <= PATH_NEAR * fmax(1, fabs(s->t)));
   }
@@ -454,7 +458,7 @@ int main(int argc, char **argv) {
       continue;
     }
     reference *of_rays = references[PATHS[i].rays];
-    const reference *hits = PATHS[i].question == ASK_SPOTS && of_rays[ASK_HITS].answers ? &of_rays[ASK_HITS] : NULL;
+    const reference *hits = (PATHS[i].question == ASK_SPOTS || PATHS[i].question == ASK_BLOCKED) && of_rays[ASK_HITS].answers ? &of_rays[ASK_HITS] : NULL;
     if (b.opt.judge && !judge(&b, &PATHS[i], &of_rays[PATHS[i].question], hits, lanes[0], &v)) {
       fputs("out of memory\n", stderr);
       return 1;

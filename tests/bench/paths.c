@@ -192,6 +192,56 @@ static size_t block_random_single(const path_job *job, path_lane *lane, size_t b
   return single_hits_of(job, lane, listed(job->lists.random, job->lists.random_count, block, lane));
 }
 
+static void keep_spots(path_lane *lane, size_t n) {
+  for (size_t k = 0; lane->answers && k < n; k++) {
+    const quoin_spot *s = &lane->spots[k];
+    path_answer *a = &lane->answers[lane->place[k]];
+    *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, s->surface != QUOIN_NO_SURFACE};
+    mix(&a->hash, &s->surface, sizeof s->surface);
+    if (a->count) {
+      mix(&a->hash, &s->leaving, sizeof s->leaving);
+      path_places(&a->places, s->t);
+      a->t = s->t;
+    }
+  }
+}
+
+/* Arrays of rays as spots, or whether they are blocked; `call` rays in one call. */
+static size_t asked_spots(const path_job *job, path_lane *lane, size_t n, size_t call) {
+  for (size_t k = 0; k < n; k += call) {
+    fail(lane, quoin_first_spots(job->scene, lane->work, n - k < call ? n - k : call, lane->asked + k, QUOIN_WANT_T, lane->spots + k));
+  }
+  keep_spots(lane, n);
+  return n;
+}
+static size_t asked_blocked(const path_job *job, path_lane *lane, size_t n, size_t call) {
+  for (size_t k = 0; k < n; k += call) {
+    fail(lane, quoin_rays_blocked(job->scene, lane->work, n - k < call ? n - k : call, lane->asked + k, NULL, lane->blocked + k));
+  }
+  for (size_t k = 0; lane->answers && k < n; k++) {
+    lane->answers[lane->place[k]] = (path_answer){lane->blocked[k], lane->blocked[k], INFINITY, lane->blocked[k]};
+  }
+  return n;
+}
+static size_t block_spots_single(const path_job *job, path_lane *lane, size_t block) {
+  return asked_spots(job, lane, rows(job->camera, block, 1, lane), 1);
+}
+static size_t block_spots(const path_job *job, path_lane *lane, size_t block) {
+  return asked_spots(job, lane, tiles(job->camera, block, lane), CALL);
+}
+static size_t block_random_spots_single(const path_job *job, path_lane *lane, size_t block) {
+  return asked_spots(job, lane, listed(job->lists.random, job->lists.random_count, block, lane), 1);
+}
+static size_t block_random_spots(const path_job *job, path_lane *lane, size_t block) {
+  return asked_spots(job, lane, listed(job->lists.random, job->lists.random_count, block, lane), CALL);
+}
+static size_t block_blocked_single(const path_job *job, path_lane *lane, size_t block) {
+  return asked_blocked(job, lane, listed(job->lists.shadow, job->lists.shadow_count, block, lane), 1);
+}
+static size_t block_blocked(const path_job *job, path_lane *lane, size_t block) {
+  return asked_blocked(job, lane, listed(job->lists.shadow, job->lists.shadow_count, block, lane), BLOCK);
+}
+
 /* A block of the grid by the grid's own call. */
 static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsigned want) {
   const bench_camera *c = job->camera;
@@ -203,17 +253,12 @@ static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsig
   memcpy(g.d, c->d, sizeof g.d);
   fail(lane, quoin_grid_hits(job->scene, lane->work, &g, e.x, e.y, e.x + e.w, e.y + e.h, want, lane->spots));
   size_t n = (size_t)e.w * e.h;
-  for (size_t k = 0; lane->answers && k < n; k++) {
-    const quoin_spot *s = &lane->spots[k];
-    path_answer *a = &lane->answers[k];
-    *a = (path_answer){PATH_NO_PLACES, PATH_NO_PLACES, INFINITY, s->surface != QUOIN_NO_SURFACE};
-    mix(&a->hash, &s->surface, sizeof s->surface);
-    if (a->count) {
-      mix(&a->hash, &s->leaving, sizeof s->leaving);
-      path_places(&a->places, s->t);
-      a->t = s->t;
+  if (lane->answers) {
+    for (size_t k = 0; k < n; k++) {
+      lane->place[k] = (uint16_t)k;
     }
   }
+  keep_spots(lane, n);
   if (lane->answers) { /* whoever judges wants to see the rays */
     rows(c, block, 1, lane);
   }
@@ -261,6 +306,12 @@ const path PATHS[] = {
   {"shadow", "the same as arrays, in the order of 8x8 tiles", RAYS_SHADOW, ASK_HITS, block_shadow, 0},
   {"random-single", "first hits, incoherent rays, one by one", RAYS_RANDOM, ASK_HITS, block_random_single, 0},
   {"random", "the same as arrays", RAYS_RANDOM, ASK_HITS, block_random, 0},
+  {"spots-single", "first boundaries in short, camera rays one by one", RAYS_CAMERA, ASK_SPOTS, block_spots_single, 0},
+  {"spots", "the same as arrays, in 8x8 tiles", RAYS_CAMERA, ASK_SPOTS, block_spots, 0},
+  {"random-spots-single", "first boundaries in short, incoherent rays one by one", RAYS_RANDOM, ASK_SPOTS, block_random_spots_single, 0},
+  {"random-spots", "the same as arrays", RAYS_RANDOM, ASK_SPOTS, block_random_spots, 0},
+  {"blocked-single", "whether the shadow rays are blocked, one by one", RAYS_SHADOW, ASK_BLOCKED, block_blocked_single, 0},
+  {"blocked", "the same as an array of 4096", RAYS_SHADOW, ASK_BLOCKED, block_blocked, 0},
   {"points-single", "sides of points, one by one", RAYS_POINTS, ASK_SIDES, block_points_single, 0},
   {"points", "the same as arrays", RAYS_POINTS, ASK_SIDES, block_points, 0},
 };

@@ -8,7 +8,7 @@ enum { BLOCK_EDGE = 64, BLOCK = BLOCK_EDGE * BLOCK_EDGE }; /* the unit of work: 
 enum { CALL = 512 }; /* rays of an array in one call: 8 tiles of 8 x 8, so that rays and answers stay in the nearer caches */
 
 /* What is asked; answers of paths with the same question about the same rays must be the same bytes. */
-typedef enum path_question { ASK_HITS, ASK_SPOTS, ASK_INTERVALS, ASK_SIDES, QUESTIONS } path_question;
+typedef enum path_question { ASK_HITS, ASK_SPOTS, ASK_BLOCKED, ASK_INTERVALS, ASK_SIDES, QUESTIONS } path_question;
 typedef enum path_rays { RAYS_CAMERA, RAYS_SHADOW, RAYS_RANDOM, RAYS_POINTS, RAY_KINDS } path_rays;
 
 /* An answer boiled down: the same for the same answer. */
@@ -40,6 +40,7 @@ typedef struct path_lane {
   const quoin_ray *asked;   /* the block's rays: these, or a piece of a list */
   quoin_hit hits[BLOCK];    /* only the first CALL of them in use when nothing is judged */
   quoin_spot spots[BLOCK];
+  uint8_t blocked[BLOCK];
   quoin_side sides[BLOCK];
   uint16_t place[BLOCK];    /* of ray k in the block's row-major order */
   path_answer *answers;     /* null when only time is wanted; else BLOCK of them, row-major */
