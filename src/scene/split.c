@@ -276,6 +276,32 @@ static quoin_status cut_large(const qn_split *s, const qn_range *r, qn_range sid
 
 /* --- eight parts ---------------------------------------------------------------------------------------------------- */
 
+/* Which of n parts is cut next, n when none should be. First those that make more than a node's fill, the largest first; then those
+   whose items find room among the slots that are left, so that a node is spared: the largest for the room they take. */
+static size_t to_cut(const qn_range *parts, const float *weight, size_t n, int by_area) {
+  size_t pick = n;
+  float most = -1;
+  for (size_t i = 0; i < n; i++) {
+    if (parts[i].end - parts[i].begin > QN_BVH_WIDE && weight[i] > most) {
+      pick = i, most = weight[i];
+    }
+  }
+  if (pick < n || !by_area) {
+    for (size_t i = 0; pick == n && i < n; i++) {
+      pick = parts[i].end - parts[i].begin > 1 ? i : n;
+    }
+    return pick;
+  }
+  const size_t room = QN_BVH_WIDE - n;
+  for (size_t i = 0; i < n; i++) {
+    const size_t items = parts[i].end - parts[i].begin;
+    if (items > 1 && items - 1 <= room && weight[i] / (float)(items - 1) > most) {
+      pick = i, most = weight[i] / (float)(items - 1);
+    }
+  }
+  return pick;
+}
+
 quoin_status qn_split_wide(const qn_split *s, const qn_range *range, int by_area, qn_range parts[QN_BVH_WIDE], size_t *count) {
   size_t n = range->end - range->begin;
   if (n <= QN_BVH_WIDE) {
@@ -285,15 +311,12 @@ quoin_status qn_split_wide(const qn_split *s, const qn_range *range, int by_area
     *count = n;
     return QUOIN_OK;
   }
-  float weight[QN_BVH_WIDE]; /* negative: one item */
+  float weight[QN_BVH_WIDE]; /* by_area: the area; else the items */
   parts[0] = *range;
   weight[0] = 0;
   for (n = 1; n < QN_BVH_WIDE; n++) {
-    size_t pick = 0;
-    for (size_t i = 1; i < n; i++) {
-      pick = weight[i] > weight[pick] ? i : pick;
-    }
-    if (weight[pick] < 0) {
+    size_t pick = to_cut(parts, weight, n, by_area);
+    if (pick == n) {
       break;
     }
     qn_range whole = parts[pick], side[2];
@@ -310,7 +333,7 @@ quoin_status qn_split_wide(const qn_split *s, const qn_range *range, int by_area
       size_t at = i ? n : pick, items = side[i].end - side[i].begin;
       float w = by_area ? area(&side[i].bounds) : (float)items;
       parts[at] = side[i];
-      weight[at] = items == 1 ? -1 : w >= 0 ? w : 0; /* what is not a number counts as nothing */
+      weight[at] = w >= 0 ? w : 0; /* what is not a number counts as nothing */
     }
   }
   *count = n;
