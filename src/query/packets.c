@@ -2,7 +2,6 @@
 #include "query/look.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static quoin_ray ray_of(const qn_packet *p, unsigned lane) {
@@ -140,11 +139,53 @@ quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, qu
 static int go_together(const quoin_ray *rays, size_t n) {
   const double *a = rays[0].d, square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
   int together = 1;
-  for (size_t i = 1; i < n; i++) {
+  for (size_t i = 1; i < n && together; i++) {
     const double *b = rays[i].d, way = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    together &= way > 0 && way * way > 0.8 * (square * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
+    together = way > 0 && way * way > 0.8 * (square * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
   }
   return together;
+}
+
+/* How far apart the lines are at most, across the first one's direction, times its square's length; about: it decides only what is faster. */
+static double width2(const quoin_ray *rays, size_t n) {
+  const double *d = rays[0].d, *o = rays[0].o;
+  double most = 0;
+  for (size_t i = 1; i < n; i++) {
+    const double x = rays[i].o[0] - o[0], y = rays[i].o[1] - o[1], z = rays[i].o[2] - o[2];
+    const double u = y * d[2] - z * d[1], v = z * d[0] - x * d[2], w = x * d[1] - y * d[0], e = u * u + v * v + w * w;
+    most = e > most ? e : most;
+  }
+  return most;
+}
+
+/* The next rays of an array to be answered together: `count` from `at`, in packets of `lanes` lanes: QN_LANES, QN_FEW or 1. A packet meets what any of its rays
+   meets: it pays while it is not much wider than things are apart (measured: three times for 64 rays, not once for 8). */
+typedef struct batch {
+  const quoin_work *work;
+  const quoin_ray *rays;
+  size_t n, at, count, run; /* run: the end of the rays that were tried as 64 */
+  unsigned lanes, last;     /* last: the lanes of the packet before */
+} batch;
+
+static int next_batch(batch *b) {
+  b->last = b->lanes;
+  b->at += b->count;
+  if (b->at >= b->n) {
+    return 0;
+  }
+  const quoin_ray *rays = b->rays + b->at;
+  const double *d = rays[0].d, apart2 = b->work->apart * b->work->apart * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  if (b->at >= b->run) {
+    b->count = b->n - b->at < QN_LANES ? b->n - b->at : QN_LANES;
+    b->run = b->at + b->count;
+    b->lanes = QN_LANES;
+    if (b->count > 2 * QN_FEW && go_together(rays, b->count) && width2(rays, b->count) <= 9 * apart2) {
+      return 1;
+    }
+  }
+  b->count = b->run - b->at < QN_FEW ? b->run - b->at : QN_FEW;
+  b->lanes = b->count > 1 && go_together(rays, b->count) && width2(rays, b->count) <= apart2 / 2 ? QN_FEW : 1;
+  return 1;
 }
 
 /* Where ray i of a run goes: into lane i; or as an 8 by 8 tile, row after row. */
@@ -200,19 +241,23 @@ static quoin_status look_together(quoin_work *work, qn_packet *packet, unsigned 
 quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
   qn_packet packet;
   quoin_status status = QUOIN_OK;
-  for (size_t run = 0; run < n && status == QUOIN_OK; run += QN_LANES) {
-    size_t in_run = n - run < QN_LANES ? n - run : QN_LANES;
-    if (in_run > 2 * QN_FEW && go_together(rays + run, in_run)) {
-      status = look_together(work, &packet, QN_LANES, (unsigned)in_run, rays + run, on ? on + run : NULL, want, out + run);
-      continue;
+  batch b = {.work = work, .rays = rays, .n = n};
+  while (next_batch(&b)) {
+    const unsigned step = b.lanes == 1 ? 1 : (unsigned)b.count;
+    for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at += step) {
+      status = look_together(work, &packet, b.lanes, step, rays + at, on ? on + at : NULL, want, out + at);
     }
-    for (size_t at = run; at < run + in_run && status == QUOIN_OK;) { /* a few, or one by one */
-      size_t count = run + in_run - at < QN_FEW ? run + in_run - at : QN_FEW, step = count;
-      count = count > 1 && !go_together(rays + at, count) ? 1 : count;
-      for (step += at; at < step && status == QUOIN_OK; at += count) {
-        status = look_together(work, &packet, count == 1 ? 1 : QN_FEW, (unsigned)count, rays + at, on ? on + at : NULL, want, out + at);
-      }
-    }
+  }
+  return status;
+}
+
+/* A packet that is no tile of 64. */
+static quoin_status look_rest(quoin_work *work, qn_packet *packet, unsigned want, unsigned n, quoin_spot *out) {
+  qn_seen seen[QN_LANES];
+  uint64_t met = 0;
+  quoin_status status = qn_look_packet(work, packet, want, seen, &met);
+  for (unsigned i = 0; i < n; i++) {
+    out[i] = met >> i & 1 ? spot_of(&seen[i]) : (quoin_spot){.surface = QUOIN_NO_SURFACE};
   }
   return status;
 }
@@ -220,25 +265,23 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
 quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out) {
   qn_packet packet;
   quoin_status status = QUOIN_OK;
-  unsigned last = 0;
-  for (size_t at = 0, count; at < n && status == QUOIN_OK; at += count) {
-    count = n - at < QN_LANES ? n - at : QN_LANES;
-    unsigned lanes = count > 2 * QN_FEW && go_together(rays + at, count) ? QN_LANES : count > 1 && go_together(rays + at, count = count < QN_FEW ? count : QN_FEW) ? QN_FEW : 1;
-    count = lanes == 1 ? 1 : count;
-    fill(&packet, lanes == QN_LANES ? AS_TILE : IN_ORDER, lanes, (unsigned)count, rays + at, NULL, lanes == last);
-    last = lanes;
-    if (lanes == QN_LANES && count == QN_LANES) {
-      status = qn_look_tile(work, &packet, want, out + at, 8);
-    } else if (lanes == QN_LANES) {
+  batch b = {.work = work, .rays = rays, .n = n};
+  while (status == QUOIN_OK && next_batch(&b)) {
+    if (b.lanes == QN_LANES) {
       quoin_spot part[QN_LANES];
-      status = qn_look_tile(work, &packet, want, part, 8);
-      memcpy(out + at, part, count * sizeof *out);
+      const int whole = b.count == QN_LANES;
+      fill(&packet, AS_TILE, QN_LANES, (unsigned)b.count, rays + b.at, NULL, b.lanes == b.last);
+      status = qn_look_tile(work, &packet, want, whole ? out + b.at : part, 8);
+      if (!whole) {
+        memcpy(out + b.at, part, b.count * sizeof *out);
+      }
+    } else if (b.lanes == QN_FEW) {
+      fill(&packet, IN_ORDER, QN_FEW, (unsigned)b.count, rays + b.at, NULL, b.lanes == b.last);
+      status = look_rest(work, &packet, want, (unsigned)b.count, out + b.at);
     } else {
-      qn_seen seen[QN_LANES];
-      uint64_t met = 0;
-      status = qn_look_packet(work, &packet, want, seen, &met);
-      for (size_t i = 0; i < count; i++) {
-        out[at + i] = met >> i & 1 ? spot_of(&seen[i]) : (quoin_spot){.surface = QUOIN_NO_SURFACE};
+      for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
+        fill(&packet, IN_ORDER, 1, 1, rays + at, NULL, 0);
+        status = look_rest(work, &packet, want, 1, out + at);
       }
     }
   }
@@ -260,22 +303,21 @@ static quoin_status weave_blocked(quoin_work *work, const quoin_ray *ray, uint8_
 quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked) {
   qn_packet packet;
   quoin_status status = QUOIN_OK;
-  const char *e = getenv("QM"); size_t M = e ? (size_t)atoi(e) : 1;
-  unsigned last = 0;
-  for (size_t at = 0, count; at < n && status == QUOIN_OK; at += count) {
-    count = n - at < M ? n - at : M;
-    unsigned lanes = count > 1 && go_together(rays + at, count) ? (unsigned)M : 1;
-    count = lanes == 1 ? 1 : count;
-    fill(&packet, lanes == QN_LANES ? AS_TILE : IN_ORDER, lanes, (unsigned)count, rays + at, on ? on + at : NULL, lanes == last);
-    packet.any = 1;
-    last = lanes;
-    qn_packet_hits hits;
-    qn_look_run(work, &packet, &hits);
-    for (unsigned i = 0; i < count; i++) {
-      unsigned lane = lanes == QN_LANES ? lane_for(AS_TILE, i) : i;
-      blocked[at + i] = hits.found >> lane & 1;
-      if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
-        status = weave_blocked(work, &rays[at + i], &blocked[at + i]);
+  batch b = {.work = work, .rays = rays, .n = n};
+  while (status == QUOIN_OK && next_batch(&b)) {
+    const unsigned step = b.lanes == 1 ? 1 : (unsigned)b.count;
+    const order way = b.lanes == QN_LANES ? AS_TILE : IN_ORDER;
+    for (size_t at = b.at; at < b.at + b.count; at += step) {
+      qn_packet_hits hits;
+      fill(&packet, way, b.lanes, step, rays + at, on ? on + at : NULL, b.lanes == b.last || at != b.at);
+      packet.any = 1;
+      qn_look_run(work, &packet, &hits);
+      for (unsigned i = 0; i < step; i++) {
+        const unsigned lane = lane_for(way, i);
+        blocked[at + i] = hits.found >> lane & 1;
+        if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
+          status = weave_blocked(work, &rays[at + i], &blocked[at + i]);
+        }
       }
     }
   }

@@ -1,6 +1,15 @@
 /* Scratch: its making, its end, its counts. */
 #include "query/sheaf.h"
 
+static double apart(const quoin_scene *scene) {
+  double volume = 1;
+  for (int k = 0; k < 3; k++) {
+    volume *= scene->max[k] - scene->min[k];
+  }
+  double each = cbrt(volume / (double)scene->leaf_count);
+  return each > 0 && each < HUGE_VAL ? each : HUGE_VAL;
+}
+
 quoin_status quoin_work_new(const quoin_scene *scene, quoin_work **out) {
   if (!scene || !out) {
     return QUOIN_E_ARGUMENT;
@@ -13,6 +22,7 @@ quoin_status quoin_work_new(const quoin_scene *scene, quoin_work **out) {
   work->scene = scene;
   work->mem = scene->mem;
   work->wide = qn_wide_pick();
+  work->apart = apart(scene);
   work->stamp = qn_alloc_zeroed(work->mem, scene->surface_count * sizeof *work->stamp);
   work->sign = qn_alloc_zeroed(work->mem, scene->surface_count);
   quoin_status status = work->stamp && work->sign ? qn_scratch_new(scene, &work->scratch) : QUOIN_E_MEMORY;

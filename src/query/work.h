@@ -26,6 +26,7 @@ struct quoin_work {
   qn_mem *mem;
   qn_scratch *scratch;
   const qn_wide *wide; /* the packet body in use */
+  double apart;        /* about how far leaves are from one another; infinite when that means nothing */
 
   /* A point's question (point.c). */
   uint32_t *stamp, now;   /* by surface: sign[] was found in question `now` */

@@ -35,7 +35,7 @@ static void see_origins(qn_packet *p) {
   }
 }
 
-#if QN_LANES_NOW == 64 /* tiles */
+#if QN_LANES_NOW >= 8 /* tiles */
 /* Floats below and above eight doubles. */
 QN_INLINE void downs(const double v[8], float out[8]) {
   for (int k = 0; k < 8; k++) {
@@ -151,7 +151,7 @@ static int facts(walk *w, qn_packet *p) {
   packet_facts *f = &w->f;
   f->p = p;
   int seen = !p->new_origins;
-#if QN_LANES_NOW == 64
+#if QN_LANES_NOW >= 8
   if (p->tile == QN_TILE_DIRECTIONS) {
     fill_tile(p, p->d);
   } else if (p->tile == QN_TILE_ORIGINS) {

@@ -459,7 +459,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     counts->nodes += w.counts.nodes;
     return;
   }
-#if QN_LANES_NOW == 64
+#if QN_LANES_NOW >= 8
   if (packet->tile == QN_TILE_ORIGINS) {
     fill_tile(packet, packet->o);
   }
