@@ -35,9 +35,11 @@ void qn_scratch_free(qn_scratch *s) {
   qn_free(mem, s->solved, s->solved_capacity * sizeof *s->solved);
   qn_free(mem, s->roots, s->root_capacity * sizeof *s->roots);
   qn_free(mem, s->candidates, s->candidate_capacity * sizeof *s->candidates);
+  qn_free(mem, s->sorted, s->sorted_capacity * sizeof *s->sorted);
   qn_free(mem, s->spans, s->span_capacity * sizeof *s->spans);
   qn_free(mem, s->events, s->event_capacity * sizeof *s->events);
   qn_free(mem, s->sorting, s->sorting_capacity * sizeof *s->sorting);
+  qn_free(mem, s->keys, s->key_capacity * sizeof *s->keys);
   qn_free(mem, s->touches, s->touch_capacity * sizeof *s->touches);
   qn_free(mem, s->inside, s->inside_capacity * sizeof *s->inside);
   qn_free(mem, s->boundary, s->boundary_capacity * sizeof *s->boundary);

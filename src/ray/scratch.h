@@ -42,6 +42,8 @@ typedef struct qn_event {
   uint8_t vague; /* the leaf has half-spaces in whose surfaces the line runs: they were taken as satisfied */
 } qn_event;
 
+typedef struct qn_event_key { uint32_t key, event; } qn_event_key;
+
 typedef struct qn_memo { uint32_t stamp, solved; } qn_memo;
 
 /* The line as the double filter takes it: tiny components flushed, with the weight of what that loses (docs/bounds.md, QN_FLUSH). */
@@ -69,9 +71,11 @@ struct qn_scratch {
   qn_solved *solved;     size_t solved_count, solved_capacity;
   qn_root_at *roots;     size_t root_count, root_capacity;
   uint32_t *candidates;  size_t candidate_count, candidate_capacity;
+  uint32_t *sorted;      size_t sorted_capacity; /* another room for as many */
   qn_span *spans;        size_t span_capacity; /* a leaf's, two buffers of span_capacity / 2 */
   qn_event *events;      size_t event_count, event_capacity;
   qn_event *sorting;     size_t sorting_capacity;
+  qn_event_key *keys;    size_t key_capacity;
   qn_bound *touches;     size_t touch_count, touch_capacity;
   qn_stretch *inside;    size_t inside_count, inside_capacity;
   qn_stretch *boundary;  size_t boundary_count, boundary_capacity;
@@ -144,6 +148,14 @@ QN_INLINE int qn_bound_cmp(qn_scratch *s, const qn_bound *a, const qn_bound *b) 
 qn_root qn_bound_root(qn_scratch *s, const qn_bound *b);
 /* A rational strictly between two bounds a < b, either of which may be infinite. */
 void qn_bound_between(qn_scratch *s, const qn_bound *a, const qn_bound *b, qn_int *num, qn_int *den);
+
+/* --- order.c: what a line meets, in order --------------------------------------------------------------------------- */
+/* Many candidates in the order of their numbers; few as they are. */
+void qn_order_candidates(qn_scratch *s);
+/* All events by place, exactly. */
+void qn_order_events(qn_scratch *s);
+/* Events at one place by leaf. */
+void qn_order_group(qn_scratch *s, qn_event *events, size_t n);
 
 /* --- leafspan.c: the stretches of one leaf -------------------------------------------------------------------------- */
 

@@ -49,45 +49,7 @@ static void find_candidates(qn_scratch *s, const qn_line *line, const qn_bound *
   for (size_t i = 0; i < scene->unbounded_count; i++) {
     visit(s, scene->unbounded[i]);
   }
-}
-
-/* Whether x comes before y in a group (by leaf) or along the line (by place). */
-static int before(qn_scratch *s, const qn_event *x, const qn_event *y, int by_leaf) {
-  return by_leaf ? x->leaf < y->leaf : qn_bound_cmp(s, &x->at, &y->at) < 0;
-}
-
-/* Stable: insertion in runs, then merging. */
-static void sort(qn_scratch *s, qn_event *events, size_t n, int by_leaf) {
-  enum { RUN = 16 };
-  for (size_t begin = 0; begin < n; begin += RUN) {
-    size_t end = begin + RUN < n ? begin + RUN : n;
-    for (size_t i = begin + 1; i < end; i++) {
-      qn_event e = events[i];
-      size_t j = i;
-      for (; j > begin && before(s, &e, &events[j - 1], by_leaf); j--) {
-        events[j] = events[j - 1];
-      }
-      events[j] = e;
-    }
-  }
-  if (n <= RUN) {
-    return;
-  }
-  if (!qn_grow(s->mem, &s->sorting, &s->sorting_capacity, n)) {
-    qn_scratch_fail(s, QUOIN_E_MEMORY);
-    return;
-  }
-  for (size_t width = RUN; width < n; width *= 2) {
-    for (size_t begin = 0; begin + width < n; begin += 2 * width) {
-      size_t middle = begin + width, end = middle + width < n ? middle + width : n, left = middle - begin;
-      memcpy(s->sorting, events + begin, left * sizeof *events);
-      size_t i = 0, j = middle, k = begin;
-      while (i < left && j < end) {
-        events[k++] = before(s, &events[j], &s->sorting[i], by_leaf) ? events[j++] : s->sorting[i++];
-      }
-      memcpy(events + k, s->sorting + i, (left - i) * sizeof *events);
-    }
-  }
+  qn_order_candidates(s);
 }
 
 static void add_event(qn_scratch *s, qn_bound at, uint32_t leaf, int enter, int vague) {
@@ -125,7 +87,7 @@ static int find_events(qn_scratch *s, const qn_bound *from, const qn_bound *to, 
       }
     }
   }
-  sort(s, s->events, s->event_count, 0);
+  qn_order_events(s);
   return any_vague;
 }
 
@@ -135,7 +97,7 @@ size_t qn_weave_group(qn_scratch *s, size_t at) {
     end++;
   }
   if (end - at > 1) {
-    sort(s, s->events + at, end - at, 1);
+    qn_order_group(s, s->events + at, end - at);
   }
   return end;
 }
