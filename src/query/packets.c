@@ -14,6 +14,45 @@ static quoin_ray ray_of(const qn_packet *p, unsigned lane) {
   return ray;
 }
 
+/* What a packet may cost. Where terms overlap through many levels a walk may be far longer than solving all leaves along the ray, which is what weaving comes to. So
+   a packet that has solved more leaves than a woven ray does, and some, is given up; and where that happens to most packets, only one in
+   32 is tried at all. Answers are the same either way. */
+enum { PATIENCE_FIRST = 1024, PATIENCE_SOME = 96, LOST_MANY = 8, LOST_MOST = 16, TRY_EACH = 32 };
+
+static uint64_t patience_budget(qn_patience *p) { /* 0: it is not tried */
+  return p->lost >= LOST_MANY && ++p->turn % TRY_EACH ? 0 : (p->fair ? p->fair : PATIENCE_FIRST) + PATIENCE_SOME;
+}
+static void patience_won(qn_patience *p) { p->lost -= p->lost > 0; }
+static void patience_lost(qn_patience *p) {
+  p->lost += p->lost < LOST_MOST;
+  p->learns = 1;
+}
+static void patience_learns(qn_patience *p, uint64_t leaves_of_a_ray) {
+  uint64_t fair = ((uint64_t)3 * (p->fair ? p->fair : PATIENCE_FIRST) + leaves_of_a_ray) / 4;
+  p->fair = fair < 1 << 20 ? (uint32_t)fair + 1 : 1 << 20;
+  p->learns = 0;
+}
+
+void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
+  const quoin_scene *scene = work->scene;
+  hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
+  qn_wide_counts wide = {.budget = scene->normal.made ? patience_budget(&work->patience) : 0};
+  if (wide.budget) {
+    qn_counts *counts = qn_scratch_counts(work->scratch);
+    const qn_wide *body = work->wide;
+    (packet->few == QN_MANY_LANES ? body->first : packet->few == QN_FEW_LANES ? body->few : body->one)(scene, packet, hits, &wide);
+    counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
+    const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
+    counts->rays += lanes - unsure;
+    counts->exact_rays += unsure;
+    if (QN_UNLIKELY(hits->unsure == packet->live && wide.leaves > wide.budget)) { /* or nearly so */
+      patience_lost(&work->patience);
+    } else {
+      patience_won(&work->patience);
+    }
+  }
+}
+
 quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out) {
   const quoin_scene *scene = work->scene;
   const quoin_ray ray = ray_of(packet, lane);
@@ -23,7 +62,11 @@ quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned l
   qn_line_from_doubles(ray.o, ray.d, &line);
   const qn_range range = {{.t = ray.from, .surface = QN_NO_SURFACE}, {.t = ray.to, .surface = QN_NO_SURFACE}};
   qn_woven woven;
+  const uint64_t *leaves = &qn_scratch_counts(work->scratch)->leaves, before = *leaves;
   quoin_status status = qn_weave(scene, work->scratch, &line, &range, QN_WANT_FIRST, &woven);
+  if (work->patience.learns) {
+    patience_learns(&work->patience, *leaves - before);
+  }
   if (status != QUOIN_OK || woven.inside_count == 0) {
     return status;
   }
@@ -49,20 +92,6 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
-  const quoin_scene *scene = work->scene;
-  hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
-  if (scene->normal.made) {
-    qn_counts *counts = qn_scratch_counts(work->scratch);
-    qn_wide_counts wide = {0};
-    const qn_wide *body = work->wide;
-    (packet->few == QN_MANY_LANES ? body->first : packet->few == QN_FEW_LANES ? body->few : body->one)(scene, packet, hits, &wide);
-    counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
-    const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
-    counts->rays += lanes - unsure;
-    counts->exact_rays += unsure;
-  }
-}
 
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
   qn_packet_hits hits;

@@ -55,6 +55,7 @@ static int make(quoin_work *work) {
   for (size_t i = 0; i < program->gate_count; i++) {
     work->sheaf->count[i] = program->gates[i].base;
   }
+  work->sheaf->deep = program->paths ? qn_scratch_eval(work->scratch) : NULL;
   return 1;
 }
 
@@ -127,10 +128,15 @@ static size_t gather(qn_sheaf *s, unsigned width, unsigned lane) {
 /* --- the weave of a lane ------------------------------------------------------------------------------------------------ */
 
 /* A leaf is entered or left: whether the solid's value changes. */
-QN_INLINE int change(const quoin_scene *scene, uint32_t *count, uint64_t name) {
+QN_INLINE int change(const quoin_scene *scene, qn_sheaf *sheaf, uint64_t name) {
   const qn_leaf *leaf = &scene->leaves[name >> 32 & QN_SPAN_LEAF];
   const qn_gate *gates = scene->program.gates;
   const int up = (name >> 63 != 0) != leaf->negated;
+  if (QN_UNLIKELY(sheaf->deep != NULL)) {
+    int was = sheaf->deep->value;
+    return qn_eval_change(sheaf->deep, leaf->gate, up ? 1 : -1) != was;
+  }
+  uint32_t *count = sheaf->count;
   for (uint32_t g = leaf->gate;; g = gates[g].parent) {
     uint32_t before = count[g], after = up ? before + 1 : before - 1;
     count[g] = after;
@@ -145,7 +151,7 @@ QN_INLINE int change(const quoin_scene *scene, uint32_t *count, uint64_t name) {
 
 /* The ends e[0] to e[n - 1] lie at one place: put into the order of the leaves, and made. Returns whether the value is another afterwards; *last is then
    the end that is named. */
-static int change_group(const quoin_scene *scene, uint32_t *count, event *e, size_t n, uint64_t *last) {
+static int change_group(const quoin_scene *scene, qn_sheaf *sheaf, event *e, size_t n, uint64_t *last) {
   int flips = 0;
   for (size_t i = 1; i < n; i++) {
     event x = e[i];
@@ -156,7 +162,7 @@ static int change_group(const quoin_scene *scene, uint32_t *count, event *e, siz
     e[j] = x;
   }
   for (size_t i = 0; i < n; i++) {
-    if (change(scene, count, e[i].name)) {
+    if (change(scene, sheaf, e[i].name)) {
       flips++;
       *last = e[i].name;
     }
@@ -245,7 +251,7 @@ static int weave(quoin_work *work, unsigned lane) {
   int value = scene->program.base;
   size_t i = 0;
   for (; i < n && e[i].t == -QN_SPAN_FAR; i++) {
-    value ^= change(scene, s->count, e[i].name);
+    value ^= change(scene, s, e[i].name);
   }
   for (size_t end; i < n && e[i].t != QN_SPAN_FAR; i = end) {
     uint64_t name = e[i].name;
@@ -256,9 +262,9 @@ static int weave(quoin_work *work, unsigned lane) {
       while (end < n && !(e[end].t - e[end - 1].t > w.tolerance)) {
         end++;
       }
-      other = change_group(scene, s->count, e + i, end - i, &name);
+      other = change_group(scene, s, e + i, end - i, &name);
     } else {
-      other = change(scene, s->count, name);
+      other = change(scene, s, name);
     }
     if (other) {
       if (value) {
@@ -273,7 +279,7 @@ static int weave(quoin_work *work, unsigned lane) {
     add(&w, HUGE_VAL, QN_SHEAF_CUT);
   }
   for (; i < n; i++) { /* back to rest */
-    change(scene, s->count, e[i].name);
+    change(scene, s, e[i].name);
   }
   return w.sure;
 }

@@ -14,6 +14,7 @@ struct qn_sheaf {
   qn_packet packet;
   qn_packet_spans spans;
   uint32_t *count;       /* by gate: true children; at rest (every leaf outside) between lanes */
+  qn_eval *deep;         /* of a program with paths, instead of count; at rest likewise */
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
   uint64_t *names;       size_t name_capacity; /* two for each of found */

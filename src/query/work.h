@@ -21,12 +21,16 @@ typedef struct qn_local {
 
 typedef struct qn_sheaf qn_sheaf; /* sheaf.h */
 
+/* How long wide code may walk before a ray is woven instead; see packets.c. */
+typedef struct qn_patience { uint32_t fair, lost, turn; int learns; } qn_patience;
+
 struct quoin_work {
   const quoin_scene *scene;
   qn_mem *mem;
   qn_scratch *scratch;
   const qn_wide *wide; /* the packet body in use */
   double apart;        /* about how far leaves are from one another; infinite when that means nothing */
+  qn_patience patience;
 
   /* A point's question (point.c). */
   uint32_t *stamp, now;   /* by surface: sign[] was found in question `now` */

@@ -57,7 +57,9 @@ typedef struct qn_packet_hits {
   uint64_t far_end; /* lanes whose surface is where the ray leaves that leaf (the larger root) */
 } qn_packet_hits;
 
-typedef struct qn_wide_counts { uint64_t nodes, leaves, packets; } qn_wide_counts;
+/* budget: leaves that each QN_W lanes may solve before all lanes are given up; 0: no limit. Enter and leave call each other, so a term taken away from a
+   term, and so on through many levels that overlap, may be walked a number of times that doubles with each. */
+typedef struct qn_wide_counts { uint64_t nodes, leaves, packets, budget; } qn_wide_counts;
 
 /* The first boundary at or after `from` and not after `to`. */
 typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);

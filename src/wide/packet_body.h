@@ -444,7 +444,7 @@ static uint64_t any_outside(walk *w, const lanes *start, uint64_t mask) {
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
-  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
+  w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){.budget = counts->budget ? counts->budget * QN_GROUPS : UINT64_MAX};
   memset(w.ties, 0, sizeof w.ties);
   hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
   if (!facts(&w, packet)) { /* numbers for which no bound is given */

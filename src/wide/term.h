@@ -144,6 +144,10 @@ typedef struct ends { _Alignas(64) double a[QN_LANES_NOW], b[QN_LANES_NOW], pa[Q
 static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out) {
   const uint32_t *leaves = w->normal->leaves + t->leaf0;
   uint64_t hits = 0;
+  if (QN_UNLIKELY(w->counts.leaves > w->counts.budget)) {
+    w->unsure = ~(uint64_t)0;
+    return 0;
+  }
   enum { READY = 4 };
   piece_constants k[READY]; /* of the first pieces; the others are prepared group by group */
   const qn_piece_head *head[READY];

@@ -36,7 +36,7 @@ typedef struct walk {
   /* Where ends of two leaves were equal, the first few places: which leaf and which surface is named there is not for the packet to say. */
   uint8_t ties[QN_LANES_NOW];
   double tie[TIES][QN_LANES_NOW];
-  qn_wide_counts counts;
+  qn_wide_counts counts; /* budget: of all lanes, UINT64_MAX for none */
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
 #if QN_LANES_NOW == 1
   beam beam;

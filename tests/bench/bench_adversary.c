@@ -263,6 +263,52 @@ static size_t wrong_answers(const tree *t, const quoin_scene *scene, quoin_work 
   return wrong;
 }
 
+typedef struct bundled { quoin_interval *all; size_t count, capacity, firsts[17]; } bundled;
+static int keep(void *user, size_t i, const quoin_intervals *answer) {
+  bundled *b = user;
+  for (size_t k = 0; k < answer->count && b->count < b->capacity; k++) {
+    b->all[b->count++] = answer->inside[k];
+  }
+  b->firsts[i + 1] = b->count;
+  return 0;
+}
+
+/* Rays beside one another, together and one by one: the same bytes. */
+static size_t wrong_bundles(const quoin_scene *scene, quoin_work *work, const quoin_ray *rays, size_t n, uint64_t *g) {
+  size_t wrong = 0;
+  bundled b = {.capacity = 16 * scene->leaf_count + 16};
+  b.all = malloc(b.capacity * sizeof *b.all);
+  must(b.all != NULL);
+  for (size_t r = 0; r < n; r++) {
+    quoin_ray beside[16];
+    quoin_hit hits[16], hit;
+    for (int i = 0; i < 16; i++) {
+      beside[i] = rays[r];
+      for (int k = 0; k < 3; k++) {
+        beside[i].o[k] += bench_between(g, -1, 1);
+      }
+    }
+    b.count = 0;
+    must(quoin_ray_intervals_many(scene, work, 16, beside, 0, keep, &b) == QUOIN_OK);
+    must(quoin_first_hits(scene, work, 16, beside, hits) == QUOIN_OK);
+    for (size_t i = 0; i < 16; i++) {
+      quoin_intervals got;
+      must(quoin_ray_intervals(scene, work, &beside[i], 0, &got) == QUOIN_OK);
+      int good = got.count == b.firsts[i + 1] - b.firsts[i];
+      for (size_t k = 0; good && k < got.count; k++) {
+        const quoin_interval *x = &b.all[b.firsts[i] + k], *y = &got.inside[k];
+        good = x->enter.t == y->enter.t && x->leave.t == y->leave.t && x->enter.part == y->enter.part && x->leave.part == y->leave.part;
+      }
+      must(quoin_first_hit(scene, work, &beside[i], &hit) == QUOIN_OK);
+      good = good && hit.found == hits[i].found && (!hit.found || (hit.t == hits[i].t && hit.part == hits[i].part));
+      good = good && hit.found == (got.count > 0) && (!hit.found || hit.t == got.inside[0].enter.t);
+      wrong += !good;
+    }
+  }
+  free(b.all);
+  return wrong;
+}
+
 static int wanted(const char *only, const char *name) {
   size_t n = strlen(name);
   for (const char *at = only; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
@@ -357,7 +403,7 @@ static int run(const family *f, size_t rays_wanted, size_t judged, double second
     met_leaves += all[r].count;
   }
   judged = judged < rays_wanted ? judged : rays_wanted;
-  size_t wrong = wrong_answers(&t, scene, work, rays, judged);
+  size_t wrong = wrong_answers(&t, scene, work, rays, judged) + wrong_bundles(scene, work, rays, judged, &g);
   double per_leaf = (double)info.memory / (double)(info.leaves ? info.leaves : 1), per_ray = (double)met_leaves / (double)rays_wanted;
   uint64_t before = leaves_of(work);
   for (size_t r = 0; r < rays_wanted; r++) {
