@@ -75,7 +75,7 @@ inline bool aim(Random &r, const std::vector<const Spot *> &spots, Line &out) {
   } else if (kind == Scaled) {
     d = pow2(r.range(-200, 200)) * d;
   } else if (r.chance(70)) {
-    p = p - Q(r.range(1, 50)) / Q(4) * d;
+    p = p - (r.chance(50) ? Q(r.range(1, 50)) / Q(4) : pow2(r.range(-3, 6))) * d;
   }
   out = {p, d, kind};
   return is_decimal(p[0]) && is_decimal(p[1]) && is_decimal(p[2]);
@@ -93,11 +93,22 @@ inline bool to_ray(const Line &l, Ray &r) {
   r.from = -INFINITY, r.to = INFINITY;
   return any;
 }
+// Some numbers of the ray a few doubles further.
+inline void nudge(Random &r, Ray &x) {
+  for (int i = 0; i < 6; i++) {
+    double &v = i < 3 ? x.o[i] : x.d[i - 3];
+    for (int k = r.chance(40) ? r.below(4) : 0; k > 0; k--) v = std::nextafter(v, r.chance(50) ? INFINITY : -INFINITY);
+  }
+  for (double &v : x.o)
+    if (std::fabs(v) < 0x1p-300) v = 0;
+  for (double &v : x.d)
+    if (std::fabs(v) < 0x1p-300) v = 0;
+}
 inline V origin(const Ray &r) { return {Q(r.o[0]), Q(r.o[1]), Q(r.o[2])}; }
 inline V direction(const Ray &r) { return {Q(r.d[0]), Q(r.d[1]), Q(r.d[2])}; }
 
-enum Bundle { Alone, Same, Sheet, Fan, Meet, Mixed, Grid, Bundles };
-static const char *const BUNDLES[Bundles] = {"alone", "same ray", "parallel", "from one place", "to one place", "mixed", "grid"};
+enum Bundle { Alone, Same, Sheet, Fan, Meet, Mixed, Grid, Near, Bundles };
+static const char *const BUNDLES[Bundles] = {"alone", "same ray", "parallel", "from one place", "to one place", "mixed", "grid", "doubles beside"};
 
 // The rays about a first one. n: how many.
 inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::vector<const Spot *> &spots, std::vector<Ray> &out) {
@@ -133,6 +144,7 @@ inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::v
       case Meet: // through first's place at t, up to rounding
         for (int i = 0; i < 3; i++) x.d[i] += (a * u[i] + b * v[i]) / 8, x.o[i] += t * (first.d[i] - x.d[i]);
         break;
+      case Near: nudge(r, x); break;
       case Mixed: {
         Line l;
         Ray other;

@@ -35,8 +35,13 @@ inline Q a_size(Random &r, const Style &s) {
   return s.dyadic ? Q(round[r.below(12)]) : r.tenth(1, 50);
 }
 inline Q a_place(Random &r, const Style &s) { return s.dyadic ? Q(r.range(-6, 6)) : r.chance(60) ? Q(r.range(-3, 3)) : r.tenth(-60, 60); }
-// What is between two faces that nearly meet; mostly nothing.
-inline Q a_gap(Random &r) { return r.chance(60) ? Q(0) : (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(20, 120)); }
+// What is between two faces that nearly meet; mostly nothing. Gaps near the spacing of doubles are where filters are tried, and where
+// parameters lie in the middle between two doubles.
+inline Q a_gap(Random &r) {
+  if (r.chance(55)) return Q(0);
+  Q g = r.chance(60) ? pow2(-r.range(44, 58)) : pow2(-r.range(20, 120));
+  return (r.chance(50) ? Q(1) : Q(-1)) * (r.chance(80) ? g : Q(3) * g);
+}
 inline Node::Op an_op(Random &r) { return (Node::Op)r.below(3); }
 
 inline Shape a_shape(Random &r, const Style &st) {
@@ -190,7 +195,7 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     return s;
   }
   case 4: { // minus its own copy, moved along an axis by an exact step
-    Spec s = a_leaf(r, st);
+    Spec s = r.chance(30) ? moved(along_axis(r.below(3), a_gap(r)), a_leaf(r, st)) : a_leaf(r, st);
     std::vector<Spec> k{s};
     Q step = r.chance(20) ? Q(0) : a_size(r, st);
     int axis = r.below(3);

@@ -64,6 +64,22 @@ inline int nodes_of(const Spec &s) {
 }
 inline Q whole(const Q &q) { return Q(std::nearbyint(CGAL::to_double(q))); }
 
+// Whether the numbers make such a solid.
+inline bool sound(const Spec &s) {
+  for (auto &k : s.kids)
+    if (!sound(k)) return false;
+  const auto &p = s.shape.p;
+  if (s.op != Node::IsLeaf) return true;
+  switch (s.shape.kind) {
+  case Shape::OneSheet: return p[1] > p[2];
+  case Shape::TwoSheets: return p[0] > p[2];
+  case Shape::HalfSpace: return p[0] != 0 || p[1] != 0 || p[2] != 0;
+  case Shape::General: return std::any_of(p.begin(), p.begin() + 9, [](const Q &q) { return q != 0; });
+  case Shape::Frustum: return p[1] != p[2];
+  default: return true;
+  }
+}
+
 // Calls attempt(spec) for every smaller tree until one returns true.
 inline bool smaller(const Spec &from, const std::function<bool(const Spec &)> &attempt) {
   int n = nodes_of(from);
@@ -71,7 +87,7 @@ inline bool smaller(const Spec &from, const std::function<bool(const Spec &)> &a
     Spec s = from;
     int at = i;
     Spec *x = node_at(s, at);
-    return x && f(*x) && attempt(s);
+    return x && f(*x) && sound(s) && attempt(s);
   };
   for (int i = 0; i < n; i++) {
     Spec copy = from;
