@@ -72,15 +72,56 @@ quoin_status qn_frustum_make(const quoin_camera *camera, size_t width, size_t he
   return QUOIN_OK;
 }
 
+/* Offsets in the picture's frame of the place (x, y), in pixels. */
+static double across_of(const qn_frustum *f, double x) {
+  return (2 * x / f->width - 1) * f->half_w;
+}
+static double upwards_of(const qn_frustum *f, double y) {
+  return (1 - 2 * y / f->height) * f->half_h;
+}
+
 void qn_frustum_ray(const qn_frustum *f, double x, double y, quoin_ray *out) {
-  const double across = (2 * x / f->width - 1) * f->half_w, upwards = (1 - 2 * y / f->height) * f->half_h;
+  const double across = across_of(f, x), upwards = upwards_of(f, y);
   for (int i = 0; i < 3; i++) {
-    const double shift = across * f->right[i] + upwards * f->up[i];
-    out->o[i] = f->orthographic ? f->eye[i] + shift : f->eye[i];
-    out->d[i] = f->orthographic ? f->forward[i] : f->forward[i] + shift;
+    const double moved = ((f->orthographic ? f->eye[i] : f->forward[i]) + across * f->right[i]) + upwards * f->up[i];
+    out->o[i] = f->orthographic ? moved : f->eye[i];
+    out->d[i] = f->orthographic ? f->forward[i] : moved;
   }
   out->from = f->near;
   out->to = INFINITY;
+}
+
+void qn_frustum_share(const qn_frustum *f, int tiles, qn_packet *out) {
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    for (int i = 0; i < 3; i++) {
+      out->o[i][lane] = f->eye[i], out->d[i][lane] = f->forward[i];
+    }
+    out->from[lane] = f->near, out->to[lane] = INFINITY;
+    out->on[lane] = QUOIN_NO_SURFACE;
+  }
+  out->few = 0;
+  out->new_origins = out->new_directions = 1;
+  out->tile = !tiles ? QN_TILE_NONE : f->orthographic ? QN_TILE_ORIGINS : QN_TILE_DIRECTIONS;
+}
+
+void qn_frustum_tile(const qn_frustum *f, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out) {
+  const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+  const double *base = f->orthographic ? f->eye : f->forward;
+  for (unsigned i = 0; i < 8; i++) {
+    const double across = across_of(f, (double)(x + (i < columns ? i : columns - 1)) + 0.5);
+    const double upwards = upwards_of(f, (double)(y + (i < rows ? i : rows - 1)) + 0.5);
+    for (int k = 0; k < 3; k++) {
+      out->across[k][i] = base[k] + across * f->right[k];
+      out->up[k][i] = upwards * f->up[k];
+    }
+  }
+  out->live = ~(uint64_t)0;
+  if (columns < 8 || rows < 8) {
+    out->live = 0;
+    for (unsigned lane = 0; lane < QN_LANES; lane++) {
+      out->live |= (uint64_t)(qn_lane_column(lane) < columns && qn_lane_row(lane) < rows) << lane;
+    }
+  }
 }
 
 /* The box to be framed: the solid's, an open side put at the size of the largest closed one from the side that is there. */

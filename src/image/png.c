@@ -12,8 +12,12 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #define LARGEST_SIDE 0x7fffffff  /* the format's: 31 bits */
+/* One filter (the difference from the row above) and a low level of compression: with libpng's defaults, all filters tried in each row and level 6,
+   a picture of 800 x 600 took 22 ms in place of 4.5, for 20 % fewer bytes (docs/decisions/0006-pictures.md). */
+#define COMPRESSION 3
 #define TEMPORARY_NAMES 10000    /* tries for a name that is free */
 
 /* What the callbacks of libpng know: where to go on an error, and what it was. */
@@ -56,18 +60,37 @@ static void on_flush(png_structp png) {
   (void)png;
 }
 
+static int is_opaque(size_t width, size_t height, const unsigned char *pixels, size_t row_bytes) {
+  for (size_t y = 0; y < height; y++) {
+    unsigned char all = 255;
+    for (size_t x = 0; x < width; x++) {
+      all &= pixels[y * row_bytes + 4 * x + 3];
+    }
+    if (all != 255) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
 /* All calls that may jump back. Returns 0 after a jump. Nothing here changes between the setjmp and a jump but *s. */
 static int encode(sink *s, png_structp png, png_infop info, png_uint_32 width, png_uint_32 height, const unsigned char *pixels,
-                  size_t row_bytes) {
+                  size_t row_bytes, int opaque) {
   if (setjmp(s->back)) {
     return 0;
   }
   png_set_write_fn(png, s, on_write, on_flush);
   png_set_user_limits(png, LARGEST_SIDE, LARGEST_SIDE);
-  png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+  png_set_IHDR(png, info, width, height, 8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  png_set_compression_level(png, COMPRESSION);
+  png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);
   png_write_info(png, info);
+  if (opaque) {
+    png_set_filler(png, 0, PNG_FILLER_AFTER); /* the fourth byte is left out */
+  }
   for (png_uint_32 y = 0; y < height; y++) {
     png_write_row(png, pixels + (size_t)y * row_bytes);
   }
@@ -86,7 +109,7 @@ static quoin_status write_stream(FILE *file, size_t width, size_t height, const 
     return QUOIN_E_MEMORY;
   }
   png_infop info = png_create_info_struct(png);
-  const int done = info && encode(&s, png, info, (png_uint_32)width, (png_uint_32)height, pixels, row_bytes);
+  const int done = info && encode(&s, png, info, (png_uint_32)width, (png_uint_32)height, pixels, row_bytes, is_opaque(width, height, pixels, row_bytes));
   const int no_memory = s.no_memory || !info; /* before info is freed and cleared */
   png_destroy_write_struct(&png, &info);
   if (done && fflush(file) == 0) {

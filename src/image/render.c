@@ -6,20 +6,25 @@
 #include "image/refine.h"
 #include "image/trace.h"
 
+#include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { TILE = 32, TILE_PIXELS = TILE * TILE };
+enum { TILE = QN_TILE, TILE_PIXELS = TILE * TILE, BLOCK = 8 };
 
 typedef struct rendering {
   const quoin_render_options *options;
   qn_picture picture;
   qn_tone tone;
   qn_first_pass pass;      /* its arrays are pixels and surfaces, to be read */
-  unsigned char *pixels;
-  uint64_t *surfaces;
-  unsigned char *refine;   /* by pixel: 1 where more samples are wanted */
+  unsigned char *pixels, background[4];
+  uint32_t *surfaces;
+  unsigned char *marks;    /* by pixel: QN_REFINE_WANTED, QN_REFINE_DONE or 0 */
+  unsigned char *sides;    /* by pixel: QN_REFINE_LEFT and so on */
+  atomic_int more;         /* following has found pixels */
   size_t tiles_across, tiles;
-  unsigned side;           /* side * side samples a refined pixel */
+  unsigned side;           /* side * side samples a refined pixel, */
+  unsigned enough;         /* unless its first ones differ by at most so many levels */
   qn_tracer *tracers[QN_MAX_THREADS]; /* each made by its thread when it first has work */
 } rendering;
 
@@ -43,50 +48,42 @@ static void put(const rendering *r, size_t x, size_t y, const double light[3]) {
 static quoin_status tracer_of(rendering *r, unsigned thread, qn_tracer **out) {
   quoin_status status = QUOIN_OK;
   if (!r->tracers[thread]) {
-    status = qn_tracer_new(r->picture.scene, &r->tracers[thread]);
+    status = qn_tracer_new(&r->picture, &r->tracers[thread]);
   }
   *out = r->tracers[thread];
   return status;
 }
 
-/* Pixels of a tile are visited along a Z curve, so that any 64 in turn from a multiple of 64 are an 8 x 8 block: rays that are asked
-   together are neighbours both ways. k < TILE_PIXELS; column and row are the even and the odd bits of k. 0: outside the picture. */
-static int pixel_at(const tile *t, uint32_t k, size_t *x, size_t *y) {
-  size_t column = 0, row = 0;
-  for (uint32_t bit = 0; TILE >> bit > 1; bit++) {
-    column |= (size_t)(k >> 2 * bit & 1) << bit;
-    row |= (size_t)(k >> (2 * bit + 1) & 1) << bit;
+/* The first pass's colours and surfaces of a block. */
+static void put_block(const rendering *r, const qn_tracer *tracer, size_t x0, size_t y0, uint64_t live) {
+  const qn_spots *s = &tracer->spots;
+  if (!tracer->hits) { /* as many are */
+    for (size_t y = y0; y < y0 + BLOCK && y < r->pass.height; y++) {
+      for (size_t x = x0; x < x0 + BLOCK && x < r->pass.width; x++) {
+        memcpy(r->pixels + y * r->pass.row_bytes + 4 * x, r->background, 4);
+        r->surfaces[y * r->pass.width + x] = QUOIN_NO_SURFACE;
+      }
+    }
+    return;
   }
-  *x = t->x0 + column;
-  *y = t->y0 + row;
-  return *x < t->x1 && *y < t->y1;
+  for (uint64_t m = live; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    const size_t x = x0 + qn_lane_column(lane), y = y0 + qn_lane_row(lane);
+    const double light[3] = {s->light[0][lane], s->light[1][lane], s->light[2][lane]};
+    put(r, x, y, light);
+    r->surfaces[y * r->pass.width + x] = s->surface[lane];
+  }
 }
 
-/* A batch of samples that is being gathered, with the pixel (its k within the tile) each belongs to. */
-typedef struct batch {
-  size_t count;
-  double xy[QN_BATCH][2];
-  uint32_t owner[QN_BATCH];
-  qn_sample samples[QN_BATCH];
-} batch;
-
-static void add_sample(batch *b, double x, double y, uint32_t owner) {
-  b->xy[b->count][0] = x;
-  b->xy[b->count][1] = y;
-  b->owner[b->count++] = owner;
-}
-
-/* Traces what was gathered and puts it into the picture as it is. */
-static quoin_status flush_first(rendering *r, qn_tracer *tracer, const tile *t, batch *b) {
-  const quoin_status status = qn_trace(&r->picture, tracer, b->count, (const double(*)[2])b->xy, b->samples);
-  for (size_t i = 0; status == QUOIN_OK && i < b->count; i++) {
-    size_t x, y;
-    (void)pixel_at(t, b->owner[i], &x, &y);
-    put(r, x, y, b->samples[i].light);
-    r->surfaces[y * r->pass.width + x] = b->samples[i].surface;
+/* The same rays as a tile's, when that is too wide an angle for a packet. */
+static qn_packet *one_by_one(const rendering *r, qn_tracer *tracer, size_t x0, size_t y0, uint64_t live) {
+  double xy[QN_LANES][2];
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    xy[lane][0] = (double)(x0 + qn_lane_column(lane)) + 0.5, xy[lane][1] = (double)(y0 + qn_lane_row(lane)) + 0.5;
   }
-  b->count = 0;
-  return status;
+  qn_trace_places(&r->picture, tracer, QN_LANES, (const double(*)[2])xy);
+  tracer->samples.live = live;
+  return &tracer->samples;
 }
 
 static quoin_status first_tile(void *user, unsigned thread, size_t number) {
@@ -94,14 +91,18 @@ static quoin_status first_tile(void *user, unsigned thread, size_t number) {
   const tile t = tile_at(r, number);
   qn_tracer *tracer;
   quoin_status status = tracer_of(r, thread, &tracer);
-  batch b = {.count = 0};
-  for (uint32_t k = 0; status == QUOIN_OK && k < TILE_PIXELS; k++) {
-    size_t x, y;
-    if (pixel_at(&t, k, &x, &y)) {
-      add_sample(&b, (double)x + 0.5, (double)y + 0.5, k);
-    }
-    if (b.count == QN_BATCH || (b.count && k == TILE_PIXELS - 1)) {
-      status = flush_first(r, tracer, &t, &b);
+  for (size_t y = t.y0; status == QUOIN_OK && y < t.y1; y += BLOCK) {
+    for (size_t x = t.x0; status == QUOIN_OK && x < t.x1; x += BLOCK) {
+      qn_packet *rays = &tracer->tile;
+      qn_frustum_tile(&r->picture.frustum, x, y, t.x1, t.y1, rays);
+      const uint64_t live = rays->live;
+      if (!r->picture.narrow) {
+        rays = one_by_one(r, tracer, x, y, live);
+      }
+      status = qn_trace(&r->picture, tracer, rays);
+      if (status == QUOIN_OK) {
+        put_block(r, tracer, x, y, live);
+      }
     }
   }
   return status;
@@ -111,62 +112,146 @@ static quoin_status mark_tile(void *user, unsigned thread, size_t number) {
   (void)thread;
   rendering *r = user;
   const tile t = tile_at(r, number);
+  qn_refine_mark(&r->pass, t.x0, t.y0, t.x1, t.y1, r->marks);
   for (size_t y = t.y0; y < t.y1; y++) {
-    for (size_t x = t.x0; x < t.x1; x++) {
-      r->refine[y * r->pass.width + x] = (unsigned char)qn_refine_needed(&r->pass, x, y);
-    }
+    memset(r->sides + y * r->pass.width + t.x0, 0, t.x1 - t.x0);
   }
   return QUOIN_OK;
 }
 
-/* Traces what was gathered and adds it to the sums of the pixels it belongs to. */
-static quoin_status flush_batch(rendering *r, qn_tracer *tracer, batch *b, double (*sums)[3]) {
-  const quoin_status status = qn_trace(&r->picture, tracer, b->count, (const double(*)[2])b->xy, b->samples);
+static quoin_status follow_tile(void *user, unsigned thread, size_t number) {
+  (void)thread;
+  rendering *r = user;
+  const tile t = tile_at(r, number);
+  if (qn_refine_follow(&r->pass, t.x0, t.y0, t.x1, t.y1, r->sides, r->marks)) {
+    atomic_store_explicit(&r->more, 1, memory_order_relaxed);
+  }
+  return QUOIN_OK;
+}
+
+/* --- a tile's pixels refined ----------------------------------------------------------------------------------------- */
+
+/* A pixel in work. */
+typedef struct refined {
+  double sum[3];
+  unsigned char low[3], high[3]; /* of the samples' bytes, and of the centre's */
+  unsigned char centre[3], sides;
+  uint16_t x, y; /* in the tile */
+} refined;
+
+/* Samples that are being gathered, with the pixel each belongs to. */
+typedef struct batch {
+  size_t count;
+  double xy[QN_LANES][2];
+  struct { refined *pixel; unsigned sides; } owner[QN_LANES];
+} batch;
+
+/* Traces what was gathered and adds it to the pixels it belongs to. */
+static quoin_status flush_batch(const rendering *r, qn_tracer *tracer, batch *b) {
+  if (b->count == 0) {
+    return QUOIN_OK;
+  }
+  qn_trace_places(&r->picture, tracer, b->count, (const double(*)[2])b->xy);
+  const quoin_status status = qn_trace(&r->picture, tracer, &tracer->samples);
   for (size_t k = 0; status == QUOIN_OK && k < b->count; k++) {
+    refined *p = b->owner[k].pixel;
     for (int c = 0; c < 3; c++) {
-      sums[b->owner[k]][c] += b->samples[k].light[c];
+      const double light = tracer->spots.light[c][k];
+      const unsigned char level = qn_tone_byte(&r->tone, light);
+      p->sum[c] += light;
+      p->low[c] = level < p->low[c] ? level : p->low[c], p->high[c] = level > p->high[c] ? level : p->high[c];
+      p->sides |= (unsigned char)(abs(level - p->centre[c]) > QN_REFINE_LEVELS ? b->owner[k].sides : 0);
     }
   }
   b->count = 0;
   return status;
 }
 
+/* Takes samples from to end - 1 of every pixel in the list. */
+static quoin_status take_samples(const rendering *r, qn_tracer *tracer, const tile *t, size_t count, refined *const *list, unsigned from, unsigned end) {
+  quoin_status status = QUOIN_OK;
+  batch b = {.count = 0};
+  for (size_t i = 0; i < count; i++) {
+    for (unsigned k = from; status == QUOIN_OK && k < end; k++) {
+      double across, down;
+      qn_refine_place(r->side, k, &across, &down);
+      b.xy[b.count][0] = (double)(t->x0 + list[i]->x) + across, b.xy[b.count][1] = (double)(t->y0 + list[i]->y) + down;
+      b.owner[b.count].pixel = list[i];
+      b.owner[b.count++].sides = qn_refine_sides(r->side, k);
+      if (b.count == QN_LANES) {
+        status = flush_batch(r, tracer, &b);
+      }
+    }
+  }
+  return status == QUOIN_OK ? flush_batch(r, tracer, &b) : status;
+}
+
+/* The pixels of a tile that are wanted, along a Z curve, so that samples that are asked together are neighbours both ways. */
+static size_t list_wanted(const rendering *r, const tile *t, refined pixels[TILE_PIXELS]) {
+  size_t count = 0;
+  for (uint32_t k = 0; k < TILE_PIXELS; k++) {
+    uint32_t column = 0, row = 0;
+    for (uint32_t bit = 0; TILE >> bit > 1; bit++) { /* the even and the odd bits of k */
+      column |= (k >> 2 * bit & 1) << bit;
+      row |= (k >> (2 * bit + 1) & 1) << bit;
+    }
+    const size_t x = t->x0 + column, y = t->y0 + row;
+    if (x < t->x1 && y < t->y1 && r->marks[y * r->pass.width + x] == QN_REFINE_WANTED) {
+      refined *p = &pixels[count++];
+      memset(p, 0, sizeof *p);
+      memcpy(p->centre, r->pixels + y * r->pass.row_bytes + 4 * x, 3);
+      memcpy(p->low, p->centre, 3), memcpy(p->high, p->centre, 3);
+      p->x = (uint16_t)column, p->y = (uint16_t)row;
+    }
+  }
+  return count;
+}
+
 static quoin_status refine_tile(void *user, unsigned thread, size_t number) {
   rendering *r = user;
   const tile t = tile_at(r, number);
+  refined pixels[TILE_PIXELS], *list[TILE_PIXELS];
+  const size_t count = list_wanted(r, &t, pixels);
+  if (count == 0) {
+    return QUOIN_OK;
+  }
   qn_tracer *tracer;
   quoin_status status = tracer_of(r, thread, &tracer);
-  double sums[TILE_PIXELS][3];
-  memset(sums, 0, sizeof sums);
-  batch b = {.count = 0};
-  const unsigned samples = r->side * r->side;
-  for (uint32_t k = 0; k < TILE_PIXELS; k++) {
-    size_t x, y;
-    if (!pixel_at(&t, k, &x, &y) || !r->refine[y * r->pass.width + x]) {
-      continue;
-    }
-    for (unsigned i = 0; status == QUOIN_OK && i < samples; i++) {
-      double across, down;
-      qn_refine_place(r->side, i, &across, &down);
-      add_sample(&b, (double)x + across, (double)y + down, k);
-      if (b.count == QN_BATCH) {
-        status = flush_batch(r, tracer, &b, sums);
-      }
-    }
+  for (size_t i = 0; i < count; i++) {
+    list[i] = &pixels[i];
   }
-  if (status == QUOIN_OK && b.count) {
-    status = flush_batch(r, tracer, &b, sums);
+  const unsigned first = qn_refine_corners(r->side), all = r->side * r->side;
+  if (status == QUOIN_OK) {
+    status = take_samples(r, tracer, &t, count, list, 0, first);
   }
-  for (uint32_t k = 0; status == QUOIN_OK && k < TILE_PIXELS; k++) {
-    size_t x, y;
-    if (pixel_at(&t, k, &x, &y) && r->refine[y * r->pass.width + x]) {
-      for (int c = 0; c < 3; c++) {
-        sums[k][c] /= samples;
-      }
-      put(r, x, y, sums[k]);
-      tracer->refined_pixels++;
+  size_t open = 0;
+  for (size_t i = 0; i < count && first < all; i++) {
+    const refined *p = &pixels[i];
+    int most = 0;
+    for (int c = 0; c < 3; c++) {
+      most = p->high[c] - p->low[c] > most ? p->high[c] - p->low[c] : most;
+    }
+    if (most > (int)r->enough) {
+      list[open++] = &pixels[i];
     }
   }
+  if (status == QUOIN_OK) {
+    status = take_samples(r, tracer, &t, open, list, first, all);
+  }
+  for (size_t i = 0, next = 0; status == QUOIN_OK && i < count; i++) {
+    const refined *p = &pixels[i];
+    const int whole = next < open && list[next] == p;
+    next += (size_t)whole;
+    const size_t x = t.x0 + p->x, y = t.y0 + p->y, at = y * r->pass.width + x;
+    double mean[3];
+    for (int c = 0; c < 3; c++) {
+      mean[c] = p->sum[c] / (whole ? all : first);
+    }
+    put(r, x, y, mean);
+    r->marks[at] = QN_REFINE_DONE;
+    r->sides[at] = p->sides;
+  }
+  tracer->refined_pixels += count;
   return status;
 }
 
@@ -217,10 +302,18 @@ quoin_render_options quoin_render_options_default(void) {
 static quoin_status render_passes(rendering *r) {
   const int antialias = r->options->antialias;
   quoin_status status = run_pass(r, first_tile, 0, antialias ? 0.5 : 1);
+  const unsigned threads = qn_thread_count(r->options->threads);
   if (status == QUOIN_OK && antialias) {
-    status = qn_parallel(qn_thread_count(r->options->threads), r->tiles, mark_tile, r, NULL);
+    status = qn_parallel(threads, r->tiles, mark_tile, r, NULL);
+  }
+  for (int round = 0; status == QUOIN_OK && antialias && round <= QN_REFINE_ROUNDS; round++) {
+    status = round == 0 ? run_pass(r, refine_tile, 0.5, 0.5) : qn_parallel(threads, r->tiles, refine_tile, r, NULL);
+    atomic_store_explicit(&r->more, 0, memory_order_relaxed);
     if (status == QUOIN_OK) {
-      status = run_pass(r, refine_tile, 0.5, 0.5);
+      status = qn_parallel(threads, r->tiles, follow_tile, r, NULL);
+    }
+    if (!atomic_load_explicit(&r->more, memory_order_relaxed)) {
+      break;
     }
   }
   return status;
@@ -244,9 +337,15 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
     return status;
   }
   r.surfaces = qn_alloc(scene->mem, count * sizeof *r.surfaces);
-  r.refine = qn_alloc(scene->mem, count);
-  if (r.surfaces && r.refine) {
+  r.marks = qn_alloc(scene->mem, 2 * count);
+  r.sides = r.marks ? r.marks + count : NULL;
+  r.enough = qn_refine_enough(r.side ? r.side : 1);
+  if (r.surfaces && r.marks) {
     qn_tone_make(&r.tone);
+    for (int c = 0; c < 3; c++) {
+      r.background[c] = qn_tone_byte(&r.tone, r.picture.background[c]);
+    }
+    r.background[3] = 255;
     r.pass = (qn_first_pass){options->width, options->height, row_bytes, pixels, r.surfaces};
     status = render_passes(&r);
   } else {
@@ -259,7 +358,7 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
     qn_tracer_free(scene, r.tracers[i]);
   }
   qn_free(scene->mem, r.surfaces, count * sizeof *r.surfaces);
-  qn_free(scene->mem, r.refine, count);
+  qn_free(scene->mem, r.marks, 2 * count);
   qn_picture_free(&r.picture);
   return status;
 }

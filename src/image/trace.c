@@ -1,5 +1,4 @@
-/* Samples of the picture, a batch at a time: all camera rays of the batch, then for each lamp all its shadow rays, so that
-   rays that go the same way are asked together.
+/* Samples of the picture, a packet at a time: 64 camera rays, then for each lamp the shadow rays of those that it may light.
 
    What is hidden: a shadow ray's first boundary inside its range hides the lamp. A boundary that is left at t = 0 exactly is
    the hit's own surface, touched from outside, and hides nothing. No shadow ray is sent to a lamp behind the surface, nor to
@@ -9,8 +8,8 @@
    takes the light of every lamp on that side, without shadows: the solid around it would make all of them dark. */
 #include "image/trace.h"
 #include "image/colour.h"
-#include "image/vec.h"
 
+#include <math.h>
 #include <string.h>
 
 static const double default_background[3] = {0.925, 0.933, 0.945}; /* sRGB: a soft light grey */
@@ -26,6 +25,8 @@ quoin_status qn_picture_make(const quoin_scene *scene, const quoin_render_option
   if (status != QUOIN_OK) {
     return status;
   }
+  const double step = fmax(p.frustum.half_w / p.frustum.width, p.frustum.half_h / p.frustum.height);
+  p.narrow = p.frustum.orthographic || 2 * QN_TILE * step < QN_NARROW;
   for (int i = 0; i < 3; i++) {
     p.background[i] = qn_srgb_to_linear(model->view.has_background ? model->view.background[i] : default_background[i]);
   }
@@ -55,16 +56,21 @@ void qn_picture_free(qn_picture *p) {
   qn_free(p->scene->mem, p->lamps, p->lamp_capacity * sizeof *p->lamps);
 }
 
-quoin_status qn_tracer_new(const quoin_scene *scene, qn_tracer **out) {
-  qn_tracer *t = qn_alloc_zeroed(scene->mem, sizeof *t);
+quoin_status qn_tracer_new(const qn_picture *p, qn_tracer **out) {
+  qn_mem *mem = p->scene->mem;
+  qn_tracer *t = qn_alloc_line(mem, sizeof *t);
   if (!t) {
     return QUOIN_E_MEMORY;
   }
-  const quoin_status status = quoin_work_new(scene, &t->work);
+  memset(t, 0, sizeof *t);
+  const quoin_status status = quoin_work_new(p->scene, &t->work);
   if (status != QUOIN_OK) {
-    qn_free(scene->mem, t, sizeof *t);
+    qn_free_line(mem, t, sizeof *t);
     return status;
   }
+  t->shade = qn_shade_of(t->work->wide->name);
+  qn_frustum_share(&p->frustum, 1, &t->tile);
+  qn_frustum_share(&p->frustum, 0, &t->samples);
   *out = t;
   return QUOIN_OK;
 }
@@ -72,96 +78,144 @@ quoin_status qn_tracer_new(const quoin_scene *scene, qn_tracer **out) {
 void qn_tracer_free(const quoin_scene *scene, qn_tracer *tracer) {
   if (tracer) {
     quoin_work_free(tracer->work);
-    qn_free(scene->mem, tracer, sizeof *tracer);
+    qn_free_line(scene->mem, tracer, sizeof *tracer);
   }
 }
 
-static const qn_finish *finish_of(const qn_picture *p, const qn_seen *hit) {
-  return &p->finishes[p->scene->leaves[hit->leaf].material];
-}
-
-/* The spot of a hit: normals turned to the viewer on a wall seen from inside; at a singular point the view direction serves. */
-static void make_spot(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *hit, qn_spot *spot) {
-  qn_seen_normal(scene, ray, hit, spot->normal);
-  for (int i = 0; i < 3; i++) {
-    spot->point[i] = ray->o[i] + hit->t * ray->d[i];
-    spot->viewer[i] = -ray->d[i];
-    spot->normal[i] = hit->leaving ? -spot->normal[i] : spot->normal[i];
+/* The first boundaries of a packet, which may be too spread out to go as one unless it is known to be narrow. */
+static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, unsigned want, qn_seen seen[QN_LANES], uint64_t *met) {
+  if (narrow || t->shade->together(p, p->live)) {
+    return qn_look_packet(t->work, p, want, seen, met);
   }
-  (void)qn_unit3(spot->viewer); /* of a direction, which is not zero */
-  if (!qn_unit3(spot->normal)) {
-    memcpy(spot->normal, spot->viewer, sizeof spot->normal);
+  unsigned lane_of[QN_LANES];
+  size_t n = 0;
+  for (uint64_t m = p->live; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    t->alone[n] = (quoin_ray){{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
+    t->alone_on[n] = p->on[lane];
+    lane_of[n++] = lane;
   }
-}
-
-static int found(const qn_seen *hit) {
-  return hit->surface != QUOIN_NO_SURFACE;
-}
-static int hidden(const qn_seen *hit) {
-  return found(hit) && !(hit->leaving && hit->t == 0);
-}
-
-/* Adds one lamp's light to the batch. */
-static quoin_status add_lamp(const qn_picture *p, qn_tracer *t, size_t n, const qn_lamp *lamp, qn_sample *out) {
-  size_t waiting = 0;
+  const quoin_status status = qn_look(t->work, n, t->alone, t->alone_on, want, t->alone_seen);
+  *met = 0;
   for (size_t i = 0; i < n; i++) {
-    double towards[3], cosine;
-    const qn_spot *spot = &t->spots[i];
-    if (!found(&t->hits[i]) || !qn_light_towards(lamp, spot, towards, &cosine)) {
-      continue;
-    }
-    if (!p->shadows || lamp->headlight || t->hits[i].leaving) {
-      qn_light_add(finish_of(p, &t->hits[i]), lamp, spot, towards, cosine, out[i].light);
-      continue;
-    }
-    quoin_ray *ray = &t->shadow_rays[waiting];
-    qn_shadow_ray(&t->rays[i], t->hits[i].t, spot->point, spot->normal, lamp, ray);
-    if (ray->d[0] == 0 && ray->d[1] == 0 && ray->d[2] == 0) {
-      continue; /* the lamp is at the spot */
-    }
-    memcpy(t->towards[waiting], towards, sizeof towards);
-    t->cosine[waiting] = cosine;
-    t->starts_on[waiting] = t->hits[i].surface;
-    t->lit[waiting++] = (uint32_t)i;
+    seen[lane_of[i]] = t->alone_seen[i];
+    *met |= (uint64_t)(t->alone_seen[i].surface != QUOIN_NO_SURFACE) << lane_of[i];
   }
-  const quoin_status status = waiting ? qn_look(t->work, waiting, t->shadow_rays, t->starts_on, QN_LOOK_ANY, t->shadow_hits) : QUOIN_OK;
+  p->new_origins = p->new_directions = 1; /* nothing was derived of them */
+  return status;
+}
+
+/* The spots of the lanes that meet something, lit by the ambient light alone; the others show the background. Returns the lanes that see a wall
+   from inside. */
+static uint64_t set_spots(const qn_picture *p, qn_tracer *t, uint64_t hits) {
+  qn_spots *s = &t->spots;
+  uint64_t leaving = 0;
+  s->shiny = 0;
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    s->surface[lane] = QUOIN_NO_SURFACE;
+    for (int i = 0; i < 3; i++) {
+      s->light[i][lane] = p->background[i];
+    }
+  }
+  for (uint64_t m = hits; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    const qn_seen *seen = &t->seen[lane];
+    const qn_finish *f = &p->finishes[p->scene->leaves[seen->leaf].material];
+    s->t[lane] = seen->t;
+    s->surface[lane] = seen->surface;
+    leaving |= (uint64_t)(seen->leaving != 0) << lane;
+    for (int i = 0; i < 3; i++) {
+      s->color[i][lane] = f->color[i];
+      s->light[i][lane] = f->ambient * f->color[i];
+    }
+    s->diffuse[lane] = f->diffuse, s->specular[lane] = f->specular, s->shininess[lane] = f->shininess;
+    s->shiny |= f->specular > 0;
+  }
+  return leaving;
+}
+
+/* Of the lanes `lit`, those that nothing hides from the lamp. */
+static quoin_status cast_shadows(const qn_lamp *lamp, qn_tracer *t, const qn_packet *rays, uint64_t *lit) {
+  qn_packet *shadows = &t->shadows;
+  const int same_directions = lamp->directional && t->shadows_of == lamp;
+  const uint64_t live = t->shade->shadow(lamp, rays, *lit, &t->spots, shadows);
+  *lit = live;
+  if (!live) {
+    return QUOIN_OK;
+  }
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    shadows->from[lane] = 0, shadows->to[lane] = lamp->directional ? INFINITY : 1;
+    shadows->on[lane] = t->spots.surface[lane];
+  }
+  shadows->live = live;
+  shadows->few = 0;
+  shadows->tile = QN_TILE_NONE;
+  shadows->new_origins = 1, shadows->new_directions = !same_directions;
+  uint64_t met;
+  const quoin_status status = look(t, shadows, lamp->directional, QN_LOOK_ANY, t->shadow_seen, &met);
+  t->shadows_of = lamp->directional ? lamp : NULL;
+  t->shadow_ray_count += (uint64_t)__builtin_popcountll(live);
+  for (uint64_t m = met; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    const qn_seen *seen = &t->shadow_seen[lane];
+    *lit &= ~((uint64_t)!(seen->leaving && seen->t == 0) << lane);
+  }
+  return status;
+}
+
+quoin_status qn_trace(const qn_picture *p, qn_tracer *t, qn_packet *rays) {
+  uint64_t hits;
+  quoin_status status = look(t, rays, p->narrow, QN_LOOK_T | QN_LOOK_MATERIAL, t->seen, &hits);
+  t->camera_rays += (uint64_t)__builtin_popcountll(rays->live);
+  t->hits = hits;
+  rays->new_origins = rays->new_origins && (p->frustum.orthographic || !p->narrow); /* what all rays share has been seen */
+  rays->new_directions = rays->new_directions && (!p->frustum.orthographic || !p->narrow);
   if (status != QUOIN_OK) {
     return status;
   }
-  t->shadow_ray_count += waiting;
-  for (size_t k = 0; k < waiting; k++) {
-    const uint32_t i = t->lit[k];
-    if (!hidden(&t->shadow_hits[k])) {
-      qn_light_add(finish_of(p, &t->hits[i]), lamp, &t->spots[i], t->towards[k], t->cosine[k], out[i].light);
+  const uint64_t leaving = set_spots(p, t, hits);
+  if (!hits) {
+    return QUOIN_OK;
+  }
+  if (rays->tile != QN_TILE_NONE) { /* packets may answer without making their rays */
+    double (*to)[QN_LANES] = rays->tile == QN_TILE_ORIGINS ? rays->o : rays->d;
+    for (unsigned lane = 0; lane < QN_LANES; lane++) {
+      for (int i = 0; i < 3; i++) {
+        to[i][lane] = rays->across[i][qn_lane_column(lane)] + rays->up[i][qn_lane_row(lane)];
+      }
     }
   }
+  t->shade->place(p->scene, rays, hits, &t->spots);
+  for (size_t k = 0; k < p->lamp_count; k++) {
+    const qn_lamp *lamp = &p->lamps[k];
+    uint64_t lit = t->shade->face(lamp, hits, &t->spots);
+    uint64_t asked = p->shadows && !lamp->headlight ? lit & ~leaving : 0;
+    if (asked) {
+      lit &= ~asked;
+      status = cast_shadows(lamp, t, rays, &asked);
+      if (status != QUOIN_OK) {
+        return status;
+      }
+      lit |= asked;
+    }
+    if (lit) {
+      t->shade->add(lamp, lit, &t->spots);
+    }
+  }
+  t->shade->clamp(&t->spots);
   return QUOIN_OK;
 }
 
-quoin_status qn_trace(const qn_picture *p, qn_tracer *t, size_t n, const double (*xy)[2], qn_sample *out) {
-  for (size_t i = 0; i < n; i++) {
-    qn_frustum_ray(&p->frustum, xy[i][0], xy[i][1], &t->rays[i]);
-  }
-  quoin_status status = qn_look(t->work, n, t->rays, NULL, QN_LOOK_T, t->hits);
-  t->camera_rays += n;
-  for (size_t i = 0; status == QUOIN_OK && i < n; i++) {
-    const qn_seen *hit = &t->hits[i];
-    if (found(hit)) {
-      make_spot(p->scene, &t->rays[i], hit, &t->spots[i]);
-      qn_light_ambient(finish_of(p, hit), out[i].light);
-      out[i].surface = (uint64_t)hit->surface << 32 | p->scene->leaves[hit->leaf].material;
-    } else {
-      memcpy(out[i].light, p->background, sizeof out[i].light);
-      out[i].surface = QN_NO_SURFACE_SEEN;
+void qn_trace_places(const qn_picture *p, qn_tracer *t, size_t count, const double (*xy)[2]) {
+  qn_packet *s = &t->samples;
+  for (size_t lane = 0; lane < QN_LANES; lane++) {
+    quoin_ray ray;
+    if (lane < count) {
+      qn_frustum_ray(&p->frustum, xy[lane][0], xy[lane][1], &ray);
+    } /* the lanes behind repeat the last ray */
+    for (int i = 0; i < 3; i++) {
+      s->o[i][lane] = ray.o[i], s->d[i][lane] = ray.d[i];
     }
   }
-  for (size_t k = 0; status == QUOIN_OK && k < p->lamp_count; k++) {
-    status = add_lamp(p, t, n, &p->lamps[k], out);
-  }
-  for (size_t i = 0; status == QUOIN_OK && i < n; i++) {
-    for (int c = 0; c < 3; c++) {
-      out[i].light[c] = fmin(out[i].light[c], 1);
-    }
-  }
-  return status;
+  s->live = count == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << count) - 1;
 }

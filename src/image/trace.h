@@ -2,9 +2,12 @@
 #ifndef QN_IMAGE_TRACE_H
 #define QN_IMAGE_TRACE_H
 
-#include "image/light.h"
+#include "image/shade.h"
 #include "query/look.h"
 #include "scene/scene.h"
+
+enum { QN_TILE = 32 }; /* pixels a side, of the tiles in which a picture is made */
+#define QN_NARROW 0.3  /* a tile's side at distance 1 */
 
 /* What all threads of one rendering share; constant while they run. */
 typedef struct qn_picture {
@@ -16,34 +19,37 @@ typedef struct qn_picture {
   size_t finish_count;
   double background[3]; /* linear */
   int shadows;
+  int narrow; /* the rays of any tile go the same way, near enough for packets */
 } qn_picture;
 
 QN_NODISCARD quoin_status qn_picture_make(const quoin_scene *scene, const quoin_render_options *options, qn_picture *out);
 void qn_picture_free(qn_picture *picture);
 
-#define QN_NO_SURFACE_SEEN UINT64_MAX
-/* One sample: its light, each component in [0, 1], and what is seen: the scene's surface << 32 | the material. */
-typedef struct qn_sample { double light[3]; uint64_t surface; } qn_sample;
-
-enum { QN_BATCH = 256 }; /* rays that are asked at once */
-
 /* One thread's scratch. */
 typedef struct qn_tracer {
+  qn_packet tile;     /* camera rays of the first pass */
+  qn_packet samples;  /* camera rays one by one */
+  qn_packet shadows;
+  qn_spots spots;
+  qn_seen seen[QN_LANES], shadow_seen[QN_LANES];
+  quoin_ray alone[QN_LANES]; /* of packets that are too spread out */
+  uint32_t alone_on[QN_LANES];
+  qn_seen alone_seen[QN_LANES];
+  uint64_t hits;      /* of the packet traced last: lanes that meet the solid; the others' surface is QUOIN_NO_SURFACE */
+  const qn_lamp *shadows_of; /* whose directions stand in `shadows` */
   quoin_work *work;
-  quoin_ray rays[QN_BATCH], shadow_rays[QN_BATCH];
-  qn_seen hits[QN_BATCH], shadow_hits[QN_BATCH];
-  qn_spot spots[QN_BATCH];
-  double towards[QN_BATCH][3], cosine[QN_BATCH];
-  uint32_t starts_on[QN_BATCH]; /* shadow rays' surfaces */
-  uint32_t lit[QN_BATCH]; /* spots that wait for a shadow ray's answer */
+  const qn_shade *shade;
   uint64_t camera_rays, shadow_ray_count, refined_pixels;
 } qn_tracer;
 
-/* Null when memory is refused; *status says how else it failed. */
-QN_NODISCARD quoin_status qn_tracer_new(const quoin_scene *scene, qn_tracer **out);
+QN_NODISCARD quoin_status qn_tracer_new(const qn_picture *picture, qn_tracer **out);
 void qn_tracer_free(const quoin_scene *scene, qn_tracer *tracer); /* null is allowed */
 
-/* n <= QN_BATCH samples at the places xy (pixels from the top left corner). */
-QN_NODISCARD quoin_status qn_trace(const qn_picture *picture, qn_tracer *tracer, size_t n, const double (*xy)[2], qn_sample *out);
+/* Traces the rays in tracer->tile or tracer->samples; the light of the live lanes, each component in [0, 1], and their surfaces are then in
+   tracer->spots. */
+QN_NODISCARD quoin_status qn_trace(const qn_picture *picture, qn_tracer *tracer, qn_packet *rays);
+
+/* The rays through count <= QN_LANES places (in pixels, from the picture's top left corner), one at least, into tracer->samples. */
+void qn_trace_places(const qn_picture *picture, qn_tracer *tracer, size_t count, const double (*xy)[2]);
 
 #endif

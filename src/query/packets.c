@@ -92,11 +92,18 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
   uint64_t woven = hits.unsure | (want & QN_LOOK_ANY ? 0 : hits.tied);
+  if (want & QN_LOOK_MATERIAL) {
+    for (uint64_t m = hits.tied & ~hits.unsure; m; m &= m - 1) {
+      unsigned lane = qn_trailing_zeros(m);
+      const quoin_ray ray = ray_of(packet, lane);
+      const uint32_t surface = hits.surface[lane];
+      woven &= ~((uint64_t)(!work->scene->surfaces[surface].materials_differ && qn_alone_there(work, &ray, hits.t[lane], hits.error[lane], surface)) << lane);
+    }
+  }
   *met = hits.found;
   for (uint64_t m = hits.found; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
@@ -90,7 +91,7 @@ static void antialiased_edge(void **state) {
     }
   }
   assert_int_equal(stats.refined_pixels, 2 * N); /* the pixels on both sides of the step of the first pass, which shows at 3 | 4 */
-  assert_int_equal(stats.camera_rays, N * N + 2 * N * 16);
+  assert_int_equal(stats.camera_rays, N * N + N * 16 + N * 4); /* the four corners of the whole ones show no edge */
   quoin_scene_free(scene);
 }
 
@@ -124,6 +125,47 @@ static void threads_do_not_show(void **state) {
     }
   }
   quoin_scene_free(scene);
+}
+
+/* The same bytes from every instruction set that this machine runs, on every number of threads (design S9): models with curved, coincident and
+   many-coloured faces, and a scene with a lamp that is a place, seen at a wide angle. */
+static void machines_do_not_show(void **state) {
+  (void)state;
+  enum { W = 120, H = 90 };
+  static const char *const files[] = {"quoin", "chess", "superquadrics", "menger_sponge", "ten_materials", "conic_sections", "die", "nut_and_bolt"};
+  static const char *const isas[] = {"sse2", "avx2", "avx512"};
+  static const char wide[] = "camera(eye = [0, -3, 1], look = [0, 0, 0.5], fov = 150); light(at = [1, -1, 3], color = [1, 1, 1]); light(direction = [1, 2, -1]);"
+                             "difference() { cube(2, center = true); sphere(1.2); } translate([0, 0, -1.5]) cube([9, 9, 1], center = true);"
+                             "material(color = [0.5, 0.6, 0.7], specular = 0.5, shininess = 33.5) superquadric(r = [1, 1, 1], e = 0.7, n = 1.4);";
+  static unsigned char first[W * H * 4], other[W * H * 4];
+  const size_t count = sizeof files / sizeof *files;
+  for (size_t k = 0; k <= count; k++) {
+    char path[1024];
+    quoin_model *model;
+    quoin_scene *scene;
+    assert_int_equal(quoin_model_new(NULL, &model), QUOIN_OK);
+    if (k < count) {
+      snprintf(path, sizeof path, "%s/models/%s.scad", QN_SOURCE_DIR, files[k]);
+      assert_int_equal(quoin_model_read_file(model, QUOIN_ROOT, path, NULL), QUOIN_OK);
+    } else {
+      assert_int_equal(quoin_model_read_text(model, QUOIN_ROOT, "wide", wide, strlen(wide), NULL), QUOIN_OK);
+    }
+    assert_int_equal(quoin_scene_compile(model, NULL, &scene), QUOIN_OK);
+    quoin_model_free(model);
+    quoin_render_options o = quoin_render_options_default();
+    o.width = W, o.height = H;
+    for (size_t isa = 0; isa < 3; isa++) { /* one that the machine lacks stands for its widest */
+      setenv("QUOIN_ISA", isas[isa], 1);
+      for (o.threads = 1; o.threads <= 4; o.threads++) {
+        assert_int_equal(quoin_render(scene, &o, isa == 0 && o.threads == 1 ? first : other, W * 4, NULL), QUOIN_OK);
+        if (isa || o.threads > 1) {
+          assert_memory_equal(first, other, sizeof first);
+        }
+      }
+    }
+    unsetenv("QUOIN_ISA");
+    quoin_scene_free(scene);
+  }
 }
 
 /* A bore's wall has the colour of what bored it; the rest has the block's. Seen through a slanted view of the bore from the
@@ -343,7 +385,7 @@ static void memory_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(outline_of_a_ball),         cmocka_unit_test(antialiased_edge), cmocka_unit_test(threads_do_not_show),
+    cmocka_unit_test(outline_of_a_ball),         cmocka_unit_test(antialiased_edge), cmocka_unit_test(threads_do_not_show), cmocka_unit_test(machines_do_not_show),
     cmocka_unit_test(cut_face_takes_the_cutter), cmocka_unit_test(shadow_lies_where_it_must), cmocka_unit_test(no_specks),
     cmocka_unit_test(inside_walls),              cmocka_unit_test(refused_arguments), cmocka_unit_test(empty_scene),
     cmocka_unit_test(progress_and_cancelling),   cmocka_unit_test(memory_is_refused),

@@ -113,7 +113,8 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
     if (found != w->found) {
       blame("found or not", text, bodies[body]->name, k, ray, w, &hits, lane);
     } else if (found) {
-      if ((int)(hits.leaving >> lane & 1) != w->leaving || (!(hits.tied >> lane & 1) && (hits.surface[lane] != w->surface || hits.leaf[lane] != w->part))) {
+      if ((int)(hits.leaving >> lane & 1) != w->leaving || (!(hits.tied >> lane & 1) && (hits.surface[lane] != w->surface || hits.leaf[lane] != w->part)) ||
+          (hits.surface[lane] != w->surface && qn_alone_there(a->work, ray, hits.t[lane], hits.error[lane], hits.surface[lane]))) {
         blame("surface, leaf or side", text, bodies[body]->name, k, ray, w, &hits, lane);
       } else if (!(fabs(hits.t[lane] - w->t) <= hits.error[lane] + 0x1p-52 * fabs(w->t))) {
         blame("parameter", text, bodies[body]->name, k, ray, w, &hits, lane);
