@@ -46,11 +46,9 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
 quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride);
 /* Runs a packet's body and counts; without a normal form every lane is unsure. */
 void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits);
+
 /* Certain that no surface but `surface`, which the ray meets within `error` of t, passes through that place (alone.c). */
 int qn_alone_there(const quoin_work *work, const quoin_ray *ray, double t, double error, uint32_t surface);
-
-/* The unit normal, out of the solid, at t on the ray, from the surface's own double form; zero at a singular point. */
-void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]);
 
 /* The gradient of a half-space's form at pivot + y, in doubles (hit.c). */
 void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]);

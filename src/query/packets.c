@@ -359,31 +359,3 @@ quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, 
   }
   return status;
 }
-
-void qn_seen_normal(const quoin_scene *scene, const quoin_ray *ray, const qn_seen *seen, double normal[3]) {
-  const qn_surface *s = &scene->surfaces[seen->surface];
-  const qn_leaf *leaf = &scene->leaves[s->leaf];
-  double y[3];
-  for (int i = 0; i < 3; i++) {
-    y[i] = (ray->o[i] - leaf->pivot[i]) + seen->t * ray->d[i];
-  }
-  qn_half_gradient(scene, &scene->halves[s->half], y, normal);
-  double size = 0, way = 0;
-  for (int i = 0; i < 3; i++) {
-    size = fmax(size, fabs(normal[i]));
-  }
-  if (!(size > 0) || !isfinite(size)) {
-    normal[0] = normal[1] = normal[2] = 0;
-    return;
-  }
-  double square = 0;
-  for (int i = 0; i < 3; i++) {
-    normal[i] /= size;
-    square += normal[i] * normal[i];
-    way += normal[i] * ray->d[i];
-  }
-  double scale = ((way > 0) == (seen->leaving != 0) ? 1 : -1) / sqrt(square); /* out of the solid: with the ray where it leaves */
-  for (int i = 0; i < 3; i++) {
-    normal[i] *= scale;
-  }
-}
