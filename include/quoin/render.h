@@ -37,6 +37,7 @@ QUOIN_API void quoin_camera_default(const quoin_scene *scene, double aspect, quo
 
 typedef struct quoin_render_stats {
   uint64_t camera_rays, shadow_rays, refined_pixels;
+  uint64_t hits; /* camera rays that meet the solid; 0: nothing is in view */
   quoin_stats work; /* summed over threads */
 } quoin_render_stats;
 

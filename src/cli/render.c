@@ -206,7 +206,21 @@ static int report(void *user, double done) {
   return 0;
 }
 
-static int render(job *j, const cli_common *common, const quoin_scene *scene) {
+/* A picture of the background alone is seldom what was meant. */
+static void say_nothing_seen(const job *j, const quoin_scene *scene, const char *path) {
+  quoin_scene_info info;
+  quoin_scene_get_info(scene, &info);
+  const char *elsewhere = j->options.has_camera ? "look from elsewhere, or leave --camera out" : "look from elsewhere with --camera";
+  cli_say_diag(&(quoin_diag){.severity = QUOIN_WARNING,
+                             .code = "Q1101",
+                             .file = path,
+                             .problem = "nothing is in view",
+                             .reason = info.empty ? "the solid is empty" : "no ray of the camera meets the solid",
+                             .way_out = info.empty ? "" : elsewhere,
+                             .source = ""});
+}
+
+static int render(job *j, const cli_common *common, const quoin_scene *scene, const char *path) {
   size_t row = 4 * j->options.width;
   unsigned char *pixels = malloc(row * j->options.height);
   if (!pixels) {
@@ -229,6 +243,9 @@ static int render(job *j, const cli_common *common, const quoin_scene *scene) {
     fputs("\r               \r", stderr);
   }
   int code = cli_code(status);
+  if (status == QUOIN_OK && stats.hits == 0 && !common->quiet) {
+    say_nothing_seen(j, scene, path);
+  }
   if (status != QUOIN_OK) {
     cli_error("cannot render: %s", quoin_status_text(status));
   } else {
@@ -249,8 +266,8 @@ static int render(job *j, const cli_common *common, const quoin_scene *scene) {
   free(pixels);
   if (common->stats) {
     fprintf(stderr, "render_seconds %.6f\nwrite_seconds %.6f\n", middle - start, cli_clock() - middle);
-    fprintf(stderr, "camera_rays %llu\nshadow_rays %llu\nrefined_pixels %llu\n", (unsigned long long)stats.camera_rays,
-            (unsigned long long)stats.shadow_rays, (unsigned long long)stats.refined_pixels);
+    fprintf(stderr, "camera_rays %llu\ncamera_hits %llu\nshadow_rays %llu\nrefined_pixels %llu\n", (unsigned long long)stats.camera_rays,
+            (unsigned long long)stats.hits, (unsigned long long)stats.shadow_rays, (unsigned long long)stats.refined_pixels);
     cli_say_work_stats(&stats.work);
   }
   return code;
@@ -282,7 +299,7 @@ static int run(const cli_command *self, int argc, char **argv) {
     cli_say_load_stats(&loaded);
   }
   if (code == CLI_OK) {
-    code = render(&j, &common, loaded.scene);
+    code = render(&j, &common, loaded.scene, path);
   }
   cli_unload(&loaded);
   return code;

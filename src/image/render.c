@@ -290,6 +290,7 @@ static void gather_stats(const rendering *r, quoin_render_stats *stats) {
       add_stats(&stats->work, &one);
       stats->camera_rays += r->tracers[i]->camera_rays;
       stats->shadow_rays += r->tracers[i]->shadow_ray_count;
+      stats->hits += r->tracers[i]->hit_count;
       stats->refined_pixels += r->tracers[i]->refined_pixels;
     }
   }

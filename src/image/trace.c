@@ -168,6 +168,7 @@ quoin_status qn_trace(const qn_picture *p, qn_tracer *t, qn_packet *rays) {
   quoin_status status = look(t, rays, p->narrow, QN_LOOK_T | QN_LOOK_MATERIAL, t->seen, &hits);
   t->camera_rays += (uint64_t)__builtin_popcountll(rays->live);
   t->hits = hits;
+  t->hit_count += (uint64_t)__builtin_popcountll(hits);
   rays->new_origins = rays->new_origins && (p->frustum.orthographic || !p->narrow); /* what all rays share has been seen */
   rays->new_directions = rays->new_directions && (!p->frustum.orthographic || !p->narrow);
   if (status != QUOIN_OK) {

@@ -39,7 +39,7 @@ typedef struct qn_tracer {
   const qn_lamp *shadows_of; /* whose directions stand in `shadows` */
   quoin_work *work;
   const qn_shade *shade;
-  uint64_t camera_rays, shadow_ray_count, refined_pixels;
+  uint64_t camera_rays, shadow_ray_count, refined_pixels, hit_count;
 } qn_tracer;
 
 QN_NODISCARD quoin_status qn_tracer_new(const qn_picture *picture, qn_tracer **out);

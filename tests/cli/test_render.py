@@ -106,9 +106,25 @@ class Pictures(Case):
         for args in (["--no-antialias"], ["--no-shadows"], ["--samples", "64"]):
             self.assertNotEqual(self.picture(text, "--imgsize", "90,70", *args)[2], base[2], args)
 
-    def test_empty(self):
-        w, h, rows = self.picture("", "--imgsize", "20,20")
-        self.assertEqual((w, h), (20, 20))
+    def test_nothing_in_view(self):
+        """A blank picture is written, and a warning says so, with its reason and a way out; not when asked to be quiet."""
+        away = ["--camera", "0,-40,0,0,-80,0"]
+        for text, args, words in (("", [], ["the solid is empty"]),
+                                  ("difference() { cube(10); cube(10); }", [], ["no ray of the camera", "with --camera"]),
+                                  (BALL, away, ["no ray of the camera", "leave --camera out"]),
+                                  ("camera(eye = [0, -40, 0], look = [0, -80, 0]); " + BALL, [], ["no ray of the camera", "with --camera"])):
+            out, model = self.folder / "blank.png", self.model(text)
+            r = run("render", model, "-o", out, "--imgsize", "20,10", *args)
+            self.assertEqual((r.code, r.out), (0, ""), r)
+            self.assertEqual(len(r.err.splitlines()), 1, r)
+            for word in [str(model) + ": warning: nothing is in view (", "[Q1101]"] + words:
+                self.assertIn(word, r.err)
+            w, h, rows = decode(out.read_bytes())
+            self.assertEqual((w, h), (20, 10))
+            self.assertEqual(len({p for row in rows for p in row}), 1)
+            self.assertEqual(run("render", model, "-o", out, "--imgsize", "20,10", "--quiet", *args).err, "")
+        # One ray of a thousand that meets the solid is enough.
+        self.picture("sphere(1);", "--imgsize", "100,75", "--camera", "0,-100,0,0,0,0", "--fov", "60")
 
     def test_standard_output(self):
         m = self.model(BALL)

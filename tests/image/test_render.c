@@ -64,6 +64,7 @@ static void outline_of_a_ball(void **state) {
     }
   }
   assert_int_equal(stats.camera_rays, N * N);
+  assert_int_equal(stats.hits, 88); /* the pixels of the disc, a quarter of them 5 + 5 + 5 + 4 + 3 */
   assert_int_equal(stats.refined_pixels, 0);
   quoin_scene_free(scene);
 }
@@ -300,10 +301,12 @@ static void empty_scene(void **state) {
   quoin_render_options o = quoin_render_options_default();
   o.width = o.height = 8;
   unsigned char p[8 * 8 * 4];
-  assert_int_equal(quoin_render(scene, &o, p, 32, NULL), QUOIN_OK);
+  quoin_render_stats stats;
+  assert_int_equal(quoin_render(scene, &o, p, 32, &stats), QUOIN_OK);
   for (size_t i = 0; i < 64; i++) {
     assert_pixel(p + 4 * i, 0, 255, 0);
   }
+  assert_true(stats.camera_rays == 64 && stats.hits == 0);
   quoin_scene_free(scene);
 }
 
