@@ -14,35 +14,43 @@ static int far_apart(const unsigned char *a, const unsigned char *b) {
   return abs(a[0] - b[0]) > QN_REFINE_LEVELS || abs(a[1] - b[1]) > QN_REFINE_LEVELS || abs(a[2] - b[2]) > QN_REFINE_LEVELS;
 }
 
-static int differ(const qn_first_pass *pass, size_t pixel, const unsigned char *a, size_t other, const unsigned char *b) {
-  return pass->surfaces[pixel] != pass->surfaces[other] || (memcmp(a, b, 3) != 0 && far_apart(a, b));
+/* Two pixels: their surfaces and where their colours are. */
+static int differ(uint32_t surface, const unsigned char *a, uint32_t other, const unsigned char *b) {
+  uint32_t x, y;
+  memcpy(&x, a, 4), memcpy(&y, b, 4);
+  return surface != other || (x != y && far_apart(a, b));
 }
 
-void qn_refine_mark(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1, size_t y1, unsigned char *marks) {
+size_t qn_refine_mark(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1, size_t y1, unsigned char *marks) {
+  const size_t width = pass->width;
   for (size_t y = y0; y < y1; y++) {
-    memset(marks + y * pass->width + x0, 0, x1 - x0);
+    memset(marks + y * width + x0, 0, x1 - x0);
   }
   /* Each pair of neighbours once, those with one half outside the rectangle included. */
+  size_t pairs = 0;
   for (size_t y = y0; y < y1; y++) {
     const unsigned char *line = pass->pixels + y * pass->row_bytes;
-    for (size_t x = x0 ? x0 : 1; x <= x1 && x < pass->width; x++) {
-      const size_t at = y * pass->width + x;
-      if (differ(pass, at - 1, line + 4 * (x - 1), at, line + 4 * x)) {
-        marks[x > x0 ? at - 1 : at] = QN_REFINE_WANTED;
-        marks[x < x1 ? at : at - 1] = QN_REFINE_WANTED;
+    const uint32_t *surfaces = pass->surfaces + y * width;
+    for (size_t x = x0 ? x0 : 1; x <= x1 && x < width; x++) {
+      if (differ(surfaces[x - 1], line + 4 * (x - 1), surfaces[x], line + 4 * x)) {
+        marks[y * width + (x > x0 ? x - 1 : x)] = QN_REFINE_WANTED;
+        marks[y * width + (x < x1 ? x : x - 1)] = QN_REFINE_WANTED;
+        pairs++;
       }
     }
   }
   for (size_t y = y0 ? y0 : 1; y <= y1 && y < pass->height; y++) {
     const unsigned char *line = pass->pixels + y * pass->row_bytes, *above = line - pass->row_bytes;
+    const uint32_t *surfaces = pass->surfaces + y * width;
     for (size_t x = x0; x < x1; x++) {
-      const size_t at = y * pass->width + x;
-      if (differ(pass, at - pass->width, above + 4 * x, at, line + 4 * x)) {
-        marks[y > y0 ? at - pass->width : at] = QN_REFINE_WANTED;
-        marks[y < y1 ? at : at - pass->width] = QN_REFINE_WANTED;
+      if (differ(surfaces[x - width], above + 4 * x, surfaces[x], line + 4 * x)) {
+        marks[(y > y0 ? y - 1 : y) * width + x] = QN_REFINE_WANTED;
+        marks[(y < y1 ? y : y - 1) * width + x] = QN_REFINE_WANTED;
+        pairs++;
       }
     }
   }
+  return pairs;
 }
 
 size_t qn_refine_follow(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1, size_t y1, const unsigned char *sides, unsigned char *marks) {

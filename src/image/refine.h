@@ -29,8 +29,8 @@ typedef struct qn_first_pass {
 enum { QN_REFINE_WANTED = 1, QN_REFINE_DONE = 2 }; /* what is to be done with a pixel */
 
 /* marks[y * width + x] for x0 <= x < x1, y0 <= y < y1: QN_REFINE_WANTED when the pixel differs from one of its four neighbours in
-   surface or light, else 0. */
-void qn_refine_mark(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1, size_t y1, unsigned char *marks);
+   surface or light, else 0. Returns 0 when none is wanted. */
+size_t qn_refine_mark(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1, size_t y1, unsigned char *marks);
 
 /* The sides of a pixel at which samples differ from its centre: something is there that the first pass missed in the pixel beyond. */
 enum { QN_REFINE_LEFT = 1, QN_REFINE_RIGHT = 2, QN_REFINE_TOP = 4, QN_REFINE_BOTTOM = 8 };

@@ -6,11 +6,11 @@
 #include "image/refine.h"
 #include "image/trace.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { TILE = QN_TILE, TILE_PIXELS = TILE * TILE, BLOCK = 8 };
+enum { FEW_PIXELS = 300 }; /* to be refined: sooner done than other threads are started */
 
 typedef struct rendering {
   const quoin_render_options *options;
@@ -21,7 +21,9 @@ typedef struct rendering {
   uint32_t *surfaces;
   unsigned char *marks;    /* by pixel: QN_REFINE_WANTED, QN_REFINE_DONE or 0 */
   unsigned char *sides;    /* by pixel: QN_REFINE_LEFT and so on */
-  atomic_int more;         /* following has found pixels */
+  uint32_t *wanted;        /* by tile: pixels that are wanted now, or some number where it is not 0 */
+  unsigned char *sided;    /* by tile: some pixel of it has sides */
+  uint16_t turns[TILE_PIXELS]; /* the pixels of a tile along a Z curve: row * TILE + column */
   size_t tiles_across, tiles;
   unsigned side;           /* side * side samples a refined pixel, */
   unsigned enough;         /* unless its first ones differ by at most so many levels */
@@ -112,19 +114,25 @@ static quoin_status mark_tile(void *user, unsigned thread, size_t number) {
   (void)thread;
   rendering *r = user;
   const tile t = tile_at(r, number);
-  qn_refine_mark(&r->pass, t.x0, t.y0, t.x1, t.y1, r->marks);
+  r->wanted[number] = (uint32_t)qn_refine_mark(&r->pass, t.x0, t.y0, t.x1, t.y1, r->marks);
   for (size_t y = t.y0; y < t.y1; y++) {
     memset(r->sides + y * r->pass.width + t.x0, 0, t.x1 - t.x0);
   }
   return QUOIN_OK;
 }
 
+/* Looks for what is beyond sides of pixels of this tile and its neighbours. */
 static quoin_status follow_tile(void *user, unsigned thread, size_t number) {
   (void)thread;
   rendering *r = user;
-  const tile t = tile_at(r, number);
-  if (qn_refine_follow(&r->pass, t.x0, t.y0, t.x1, t.y1, r->sides, r->marks)) {
-    atomic_store_explicit(&r->more, 1, memory_order_relaxed);
+  const size_t column = number % r->tiles_across;
+  const int some = r->sided[number] || (column > 0 && r->sided[number - 1]) || (column + 1 < r->tiles_across && r->sided[number + 1]) ||
+                   (number >= r->tiles_across && r->sided[number - r->tiles_across]) ||
+                   (number + r->tiles_across < r->tiles && r->sided[number + r->tiles_across]);
+  r->wanted[number] = 0;
+  if (some) {
+    const tile t = tile_at(r, number);
+    r->wanted[number] = (uint32_t)qn_refine_follow(&r->pass, t.x0, t.y0, t.x1, t.y1, r->sides, r->marks);
   }
   return QUOIN_OK;
 }
@@ -186,15 +194,22 @@ static quoin_status take_samples(const rendering *r, qn_tracer *tracer, const ti
   return status == QUOIN_OK ? flush_batch(r, tracer, &b) : status;
 }
 
-/* The pixels of a tile that are wanted, along a Z curve, so that samples that are asked together are neighbours both ways. */
-static size_t list_wanted(const rendering *r, const tile *t, refined pixels[TILE_PIXELS]) {
-  size_t count = 0;
+static void make_turns(uint16_t turns[TILE_PIXELS]) {
   for (uint32_t k = 0; k < TILE_PIXELS; k++) {
     uint32_t column = 0, row = 0;
     for (uint32_t bit = 0; TILE >> bit > 1; bit++) { /* the even and the odd bits of k */
       column |= (k >> 2 * bit & 1) << bit;
       row |= (k >> (2 * bit + 1) & 1) << bit;
     }
+    turns[k] = (uint16_t)(row * TILE + column);
+  }
+}
+
+/* The pixels of a tile that are wanted, along a Z curve, so that samples that are asked together are neighbours both ways. */
+static size_t list_wanted(const rendering *r, const tile *t, refined pixels[TILE_PIXELS]) {
+  size_t count = 0;
+  for (uint32_t k = 0; k < TILE_PIXELS; k++) {
+    const uint32_t column = r->turns[k] % TILE, row = r->turns[k] / TILE;
     const size_t x = t->x0 + column, y = t->y0 + row;
     if (x < t->x1 && y < t->y1 && r->marks[y * r->pass.width + x] == QN_REFINE_WANTED) {
       refined *p = &pixels[count++];
@@ -211,7 +226,7 @@ static quoin_status refine_tile(void *user, unsigned thread, size_t number) {
   rendering *r = user;
   const tile t = tile_at(r, number);
   refined pixels[TILE_PIXELS], *list[TILE_PIXELS];
-  const size_t count = list_wanted(r, &t, pixels);
+  const size_t count = r->wanted[number] ? list_wanted(r, &t, pixels) : 0;
   if (count == 0) {
     return QUOIN_OK;
   }
@@ -250,6 +265,7 @@ static quoin_status refine_tile(void *user, unsigned thread, size_t number) {
     put(r, x, y, mean);
     r->marks[at] = QN_REFINE_DONE;
     r->sides[at] = p->sides;
+    r->sided[number] |= p->sides;
   }
   tracer->refined_pixels += count;
   return status;
@@ -308,13 +324,18 @@ static quoin_status render_passes(rendering *r) {
     status = qn_parallel(threads, r->tiles, mark_tile, r, NULL);
   }
   for (int round = 0; status == QUOIN_OK && antialias && round <= QN_REFINE_ROUNDS; round++) {
-    status = round == 0 ? run_pass(r, refine_tile, 0.5, 0.5) : qn_parallel(threads, r->tiles, refine_tile, r, NULL);
-    atomic_store_explicit(&r->more, 0, memory_order_relaxed);
-    if (status == QUOIN_OK) {
-      status = qn_parallel(threads, r->tiles, follow_tile, r, NULL);
+    size_t wanted = 0;
+    for (size_t i = 0; i < r->tiles; i++) {
+      wanted += r->wanted[i];
     }
-    if (!atomic_load_explicit(&r->more, memory_order_relaxed)) {
+    if (wanted == 0) {
       break;
+    }
+    const unsigned now = wanted < FEW_PIXELS ? 1 : threads;
+    memset(r->sided, 0, r->tiles);
+    status = round == 0 ? run_pass(r, refine_tile, 0.5, 0.5) : qn_parallel(now, r->tiles, refine_tile, r, NULL);
+    if (status == QUOIN_OK) {
+      status = qn_parallel(now, r->tiles, follow_tile, r, NULL);
     }
   }
   return status;
@@ -341,7 +362,10 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
   r.marks = qn_alloc(scene->mem, 2 * count);
   r.sides = r.marks ? r.marks + count : NULL;
   r.enough = qn_refine_enough(r.side ? r.side : 1);
-  if (r.surfaces && r.marks) {
+  r.wanted = qn_alloc(scene->mem, r.tiles * sizeof *r.wanted);
+  r.sided = qn_alloc(scene->mem, r.tiles);
+  if (r.surfaces && r.marks && r.wanted && r.sided) {
+    make_turns(r.turns);
     qn_tone_make(&r.tone);
     for (int c = 0; c < 3; c++) {
       r.background[c] = qn_tone_byte(&r.tone, r.picture.background[c]);
@@ -360,6 +384,8 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
   }
   qn_free(scene->mem, r.surfaces, count * sizeof *r.surfaces);
   qn_free(scene->mem, r.marks, 2 * count);
+  qn_free(scene->mem, r.wanted, r.tiles * sizeof *r.wanted);
+  qn_free(scene->mem, r.sided, r.tiles);
   qn_picture_free(&r.picture);
   return status;
 }
