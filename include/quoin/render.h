@@ -24,7 +24,7 @@ typedef struct quoin_render_options {
   int has_camera;        /* 0: the model's camera, else a view that frames the solid */
   quoin_camera camera;
   int antialias;         /* default 1: more samples where neighbours differ in surface or light */
-  unsigned samples;      /* samples a refined pixel takes, a square number; default 16 */
+  unsigned samples;      /* samples a refined pixel takes, a square number up to 65536; default 16 */
   int shadows;           /* default 1 */
   unsigned threads;      /* 0: as many as the machine has */
   quoin_progress progress;

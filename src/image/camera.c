@@ -91,6 +91,20 @@ void qn_frustum_ray(const qn_frustum *f, double x, double y, quoin_ray *out) {
   out->to = INFINITY;
 }
 
+void qn_frustum_rays(const qn_frustum *f, const double x[QN_LANES], const double y[QN_LANES], qn_packet *out) {
+  double across[QN_LANES], upwards[QN_LANES];
+  for (int lane = 0; lane < QN_LANES; lane++) {
+    across[lane] = across_of(f, x[lane]), upwards[lane] = upwards_of(f, y[lane]);
+  }
+  for (int i = 0; i < 3; i++) {
+    const double base = f->orthographic ? f->eye[i] : f->forward[i], right = f->right[i], up = f->up[i];
+    double *to = f->orthographic ? out->o[i] : out->d[i];
+    for (int lane = 0; lane < QN_LANES; lane++) {
+      to[lane] = (base + across[lane] * right) + upwards[lane] * up;
+    }
+  }
+}
+
 void qn_frustum_share(const qn_frustum *f, int tiles, qn_packet *out) {
   for (unsigned lane = 0; lane < QN_LANES; lane++) {
     for (int i = 0; i < 3; i++) {

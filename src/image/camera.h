@@ -23,6 +23,9 @@ quoin_status qn_frustum_make(const quoin_camera *camera, size_t width, size_t he
    Its t is the depth: the distance from the eye along the view direction. It begins at near. */
 void qn_frustum_ray(const qn_frustum *frustum, double x, double y, quoin_ray *out);
 
+/* The same doubles for the places of all lanes, into out's o or d; the other of them is qn_frustum_share's. */
+void qn_frustum_rays(const qn_frustum *frustum, const double x[QN_LANES], const double y[QN_LANES], qn_packet *out);
+
 /* The rays through the centres of the 8 by 8 pixels from (x, y) on, as a tile of a packet; columns and rows from x1 and y1 on repeat the
    last. The same doubles as qn_frustum_ray's. Fills in everything but what is the same for all tiles (qn_frustum_share). */
 void qn_frustum_tile(const qn_frustum *frustum, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out);

@@ -74,7 +74,7 @@ unsigned qn_refine_side(unsigned samples) {
   while ((uint64_t)n * n < samples) {
     n++;
   }
-  return (uint64_t)n * n == samples ? n : 0;
+  return (uint64_t)n * n == samples && n <= QN_REFINE_MOST ? n : 0;
 }
 
 unsigned qn_refine_enough(unsigned side) {

@@ -38,7 +38,8 @@ enum { QN_REFINE_LEFT = 1, QN_REFINE_RIGHT = 2, QN_REFINE_TOP = 4, QN_REFINE_BOT
 /* Pixels of the rectangle that are beyond such a side and not marked become wanted; returns how many. */
 size_t qn_refine_follow(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1, size_t y1, const unsigned char *sides, unsigned char *marks);
 
-/* n when samples = n * n with n > 0, else 0. */
+/* n when samples = n * n with 0 < n <= QN_REFINE_MOST, else 0. */
+enum { QN_REFINE_MOST = 256 };
 unsigned qn_refine_side(unsigned samples);
 
 /* The place of sample k < side * side in its pixel, in (0, 1), and the pixel's sides that it is next to. The first qn_refine_corners(side)

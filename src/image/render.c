@@ -6,11 +6,14 @@
 #include "image/refine.h"
 #include "image/trace.h"
 
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 enum { TILE = QN_TILE, TILE_PIXELS = TILE * TILE, BLOCK = 8 };
 enum { FEW_PIXELS = 300 }; /* to be refined: sooner done than other threads are started */
+
+/* A sample's place in its pixel, and the sides that it is next to. */
+typedef struct sample { double x, y; unsigned sides; } sample;
 
 typedef struct rendering {
   const quoin_render_options *options;
@@ -26,6 +29,7 @@ typedef struct rendering {
   uint16_t turns[TILE_PIXELS]; /* the pixels of a tile along a Z curve: row * TILE + column */
   size_t tiles_across, tiles;
   unsigned side;           /* side * side samples a refined pixel, */
+  sample *pattern;
   unsigned enough;         /* unless its first ones differ by at most so many levels */
   qn_tracer *tracers[QN_MAX_THREADS]; /* each made by its thread when it first has work */
 } rendering;
@@ -79,11 +83,11 @@ static void put_block(const rendering *r, const qn_tracer *tracer, size_t x0, si
 
 /* The same rays as a tile's, when that is too wide an angle for a packet. */
 static qn_packet *one_by_one(const rendering *r, qn_tracer *tracer, size_t x0, size_t y0, uint64_t live) {
-  double xy[QN_LANES][2];
+  double x[QN_LANES], y[QN_LANES];
   for (unsigned lane = 0; lane < QN_LANES; lane++) {
-    xy[lane][0] = (double)(x0 + qn_lane_column(lane)) + 0.5, xy[lane][1] = (double)(y0 + qn_lane_row(lane)) + 0.5;
+    x[lane] = (double)(x0 + qn_lane_column(lane)) + 0.5, y[lane] = (double)(y0 + qn_lane_row(lane)) + 0.5;
   }
-  qn_trace_places(&r->picture, tracer, QN_LANES, (const double(*)[2])xy);
+  qn_trace_places(&r->picture, tracer, QN_LANES, x, y);
   tracer->samples.live = live;
   return &tracer->samples;
 }
@@ -142,7 +146,8 @@ static quoin_status follow_tile(void *user, unsigned thread, size_t number) {
 /* A pixel in work. */
 typedef struct refined {
   double sum[3];
-  unsigned char low[3], high[3]; /* of the samples' bytes, and of the centre's */
+  double low[3], high[3];   /* of the samples' light */
+  double under[3], over[3]; /* light from here on, or under this, is QN_REFINE_LEVELS from the centre's level and more */
   unsigned char centre[3], sides;
   uint16_t x, y; /* in the tile */
 } refined;
@@ -150,7 +155,7 @@ typedef struct refined {
 /* Samples that are being gathered, with the pixel each belongs to. */
 typedef struct batch {
   size_t count;
-  double xy[QN_LANES][2];
+  double x[QN_LANES], y[QN_LANES];
   struct { refined *pixel; unsigned sides; } owner[QN_LANES];
 } batch;
 
@@ -159,17 +164,18 @@ static quoin_status flush_batch(const rendering *r, qn_tracer *tracer, batch *b)
   if (b->count == 0) {
     return QUOIN_OK;
   }
-  qn_trace_places(&r->picture, tracer, b->count, (const double(*)[2])b->xy);
+  qn_trace_places(&r->picture, tracer, b->count, b->x, b->y);
   const quoin_status status = qn_trace(&r->picture, tracer, &tracer->samples);
   for (size_t k = 0; status == QUOIN_OK && k < b->count; k++) {
     refined *p = b->owner[k].pixel;
+    int far = 0;
     for (int c = 0; c < 3; c++) {
       const double light = tracer->spots.light[c][k];
-      const unsigned char level = qn_tone_byte(&r->tone, light);
       p->sum[c] += light;
-      p->low[c] = level < p->low[c] ? level : p->low[c], p->high[c] = level > p->high[c] ? level : p->high[c];
-      p->sides |= (unsigned char)(abs(level - p->centre[c]) > QN_REFINE_LEVELS ? b->owner[k].sides : 0);
+      p->low[c] = light < p->low[c] ? light : p->low[c], p->high[c] = light > p->high[c] ? light : p->high[c];
+      far |= light < p->under[c] || light >= p->over[c];
     }
+    p->sides |= (unsigned char)(far ? b->owner[k].sides : 0);
   }
   b->count = 0;
   return status;
@@ -180,12 +186,12 @@ static quoin_status take_samples(const rendering *r, qn_tracer *tracer, const ti
   quoin_status status = QUOIN_OK;
   batch b = {.count = 0};
   for (size_t i = 0; i < count; i++) {
+    const double x = (double)(t->x0 + list[i]->x), y = (double)(t->y0 + list[i]->y);
     for (unsigned k = from; status == QUOIN_OK && k < end; k++) {
-      double across, down;
-      qn_refine_place(r->side, k, &across, &down);
-      b.xy[b.count][0] = (double)(t->x0 + list[i]->x) + across, b.xy[b.count][1] = (double)(t->y0 + list[i]->y) + down;
+      const sample *s = &r->pattern[k];
+      b.x[b.count] = x + s->x, b.y[b.count] = y + s->y;
       b.owner[b.count].pixel = list[i];
-      b.owner[b.count++].sides = qn_refine_sides(r->side, k);
+      b.owner[b.count++].sides = s->sides;
       if (b.count == QN_LANES) {
         status = flush_batch(r, tracer, &b);
       }
@@ -215,7 +221,12 @@ static size_t list_wanted(const rendering *r, const tile *t, refined pixels[TILE
       refined *p = &pixels[count++];
       memset(p, 0, sizeof *p);
       memcpy(p->centre, r->pixels + y * r->pass.row_bytes + 4 * x, 3);
-      memcpy(p->low, p->centre, 3), memcpy(p->high, p->centre, 3);
+      for (int c = 0; c < 3; c++) {
+        const int level = p->centre[c];
+        p->low[c] = 1, p->high[c] = 0;
+        p->under[c] = level > QN_REFINE_LEVELS ? r->tone.step[level - QN_REFINE_LEVELS - 1] : 0;
+        p->over[c] = level + QN_REFINE_LEVELS < 255 ? r->tone.step[level + QN_REFINE_LEVELS] : INFINITY;
+      }
       p->x = (uint16_t)column, p->y = (uint16_t)row;
     }
   }
@@ -244,7 +255,9 @@ static quoin_status refine_tile(void *user, unsigned thread, size_t number) {
     const refined *p = &pixels[i];
     int most = 0;
     for (int c = 0; c < 3; c++) {
-      most = p->high[c] - p->low[c] > most ? p->high[c] - p->low[c] : most;
+      const int low = qn_tone_byte(&r->tone, p->low[c]), high = qn_tone_byte(&r->tone, p->high[c]), centre = p->centre[c];
+      const int spread = (high > centre ? high : centre) - (low < centre ? low : centre);
+      most = spread > most ? spread : most;
     }
     if (most > (int)r->enough) {
       list[open++] = &pixels[i];
@@ -362,9 +375,15 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
   r.marks = qn_alloc(scene->mem, 2 * count);
   r.sides = r.marks ? r.marks + count : NULL;
   r.enough = qn_refine_enough(r.side ? r.side : 1);
+  const size_t samples = (size_t)r.side * r.side;
+  r.pattern = qn_alloc(scene->mem, samples * sizeof *r.pattern);
+  for (size_t k = 0; r.pattern && k < samples; k++) {
+    qn_refine_place(r.side, (unsigned)k, &r.pattern[k].x, &r.pattern[k].y);
+    r.pattern[k].sides = qn_refine_sides(r.side, (unsigned)k);
+  }
   r.wanted = qn_alloc(scene->mem, r.tiles * sizeof *r.wanted);
   r.sided = qn_alloc(scene->mem, r.tiles);
-  if (r.surfaces && r.marks && r.wanted && r.sided) {
+  if (r.surfaces && r.marks && r.wanted && r.sided && r.pattern) {
     make_turns(r.turns);
     qn_tone_make(&r.tone);
     for (int c = 0; c < 3; c++) {
@@ -384,6 +403,7 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
   }
   qn_free(scene->mem, r.surfaces, count * sizeof *r.surfaces);
   qn_free(scene->mem, r.marks, 2 * count);
+  qn_free(scene->mem, r.pattern, samples * sizeof *r.pattern);
   qn_free(scene->mem, r.wanted, r.tiles * sizeof *r.wanted);
   qn_free(scene->mem, r.sided, r.tiles);
   qn_picture_free(&r.picture);

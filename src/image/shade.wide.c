@@ -16,6 +16,7 @@
 #include "base/bounds.h"
 #include "image/power.h"
 #include "image/shade.h"
+#include "image/vec.h"
 #include "query/look.h"
 #include "wide/vec.h"
 
@@ -83,6 +84,12 @@ static void normals_on(const quoin_scene *scene, const qn_packet *rays, uint32_t
   const qn_surface *surface = &scene->surfaces[number];
   const qn_half *half = &scene->halves[surface->half];
   const double *pivot = scene->leaves[surface->leaf].pivot;
+  double flat[3] = {0, 0, 0};
+  const int plane = half->kind == QN_PLANE;
+  if (plane) {
+    memcpy(flat, scene->planes[half->shadow].n, sizeof flat);
+    (void)qn_unit3(flat); /* of a plane's normal, which is not zero */
+  }
   for (int g = 0; g < GROUPS; g++) {
     const unsigned in = lanes_of(lanes, g);
     if (!in) {
@@ -90,9 +97,10 @@ static void normals_on(const quoin_scene *scene, const qn_packet *rays, uint32_t
     }
     const int at = g * QN_W;
     vd n[3], viewer[3];
-    if (half->kind == QN_PLANE) {
+    if (plane) {
       for (int i = 0; i < 3; i++) {
-        n[i] = vset(scene->planes[half->shadow].n[i]);
+        n[i] = vset(flat[i]);
+        viewer[i] = vload(spots->viewer[i] + at);
       }
     } else {
       vd y[3];
@@ -105,11 +113,11 @@ static void normals_on(const quoin_scene *scene, const qn_packet *rays, uint32_t
       } else {
         quadric_gradient(&scene->quadrics[half->shadow], y, n);
       }
-    }
-    const vm some = unit(n);
-    for (int i = 0; i < 3; i++) {
-      viewer[i] = vload(spots->viewer[i] + at);
-      n[i] = vpick(some, n[i], viewer[i]); /* at a singular point */
+      const vm some = unit(n);
+      for (int i = 0; i < 3; i++) {
+        viewer[i] = vload(spots->viewer[i] + at);
+        n[i] = vpick(some, n[i], viewer[i]); /* at a singular point */
+      }
     }
     const vm away = vlt(dot(n, viewer), vset(0)), here = vmask(in);
     for (int i = 0; i < 3; i++) {

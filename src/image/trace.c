@@ -207,16 +207,10 @@ quoin_status qn_trace(const qn_picture *p, qn_tracer *t, qn_packet *rays) {
   return QUOIN_OK;
 }
 
-void qn_trace_places(const qn_picture *p, qn_tracer *t, size_t count, const double (*xy)[2]) {
-  qn_packet *s = &t->samples;
-  for (size_t lane = 0; lane < QN_LANES; lane++) {
-    quoin_ray ray;
-    if (lane < count) {
-      qn_frustum_ray(&p->frustum, xy[lane][0], xy[lane][1], &ray);
-    } /* the lanes behind repeat the last ray */
-    for (int i = 0; i < 3; i++) {
-      s->o[i][lane] = ray.o[i], s->d[i][lane] = ray.d[i];
-    }
+void qn_trace_places(const qn_picture *p, qn_tracer *t, size_t count, double x[QN_LANES], double y[QN_LANES]) {
+  for (size_t lane = count; lane < QN_LANES; lane++) {
+    x[lane] = x[count - 1], y[lane] = y[count - 1];
   }
-  s->live = count == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << count) - 1;
+  qn_frustum_rays(&p->frustum, x, y, &t->samples);
+  t->samples.live = count == QN_LANES ? ~(uint64_t)0 : ((uint64_t)1 << count) - 1;
 }

@@ -49,7 +49,8 @@ void qn_tracer_free(const quoin_scene *scene, qn_tracer *tracer); /* null is all
    tracer->spots. */
 QN_NODISCARD quoin_status qn_trace(const qn_picture *picture, qn_tracer *tracer, qn_packet *rays);
 
-/* The rays through count <= QN_LANES places (in pixels, from the picture's top left corner), one at least, into tracer->samples. */
-void qn_trace_places(const qn_picture *picture, qn_tracer *tracer, size_t count, const double (*xy)[2]);
+/* The rays through count <= QN_LANES places (x and y in pixels, from the picture's top left corner), one at least, into tracer->samples. The
+   places behind them are set to the last. */
+void qn_trace_places(const qn_picture *picture, qn_tracer *tracer, size_t count, double x[QN_LANES], double y[QN_LANES]);
 
 #endif

@@ -135,7 +135,8 @@ static void sides(void **state) {
   assert_int_equal(qn_refine_side(2), 0);
   assert_int_equal(qn_refine_side(15), 0);
   assert_int_equal(qn_refine_side(16), 4);
-  assert_int_equal(qn_refine_side(4294836225u), 65535);
+  assert_int_equal(qn_refine_side(65536), 256);
+  assert_int_equal(qn_refine_side(257 * 257), 0);
   assert_int_equal(qn_refine_side(4294967295u), 0);
 }
 
