@@ -176,6 +176,7 @@ struct Bench { // one model and its judges
   }
   Answer exact_answer;
   void aim_exact(const Ray &ray) { exact_answer = intersect(solid, surfaces, origin(ray), direction(ray)); }
+  mutable unsigned long long middles = 0; // ends that lie in the very middle between two doubles
   Verdict judge_exact(const Ray &ray, const Reply &reply, int way, size_t &rounded) const {
     const Answer &a = exact_answer;
     if (a.skipped) return Unjudged;
@@ -184,12 +185,17 @@ struct Bench { // one model and its judges
       if (std::isinf(t)) return t > 0 ? -1 : 1;
       return (int)CGAL::compare(n, Root(Q(t)));
     };
-    auto nearest_ = [](double t, const Root &n) {
+    auto nearest_ = [this](double t, const Root &n) {
       if (std::isinf(t)) { // beyond the largest double, with the halfway point going to even
         Root most((Q(0x1.fffffffffffffp+1023) + pow2(970)) * Q(t > 0 ? 1 : -1));
         return (int)(t > 0 ? n >= most : n <= most);
       }
       if (std::fabs(t) == 0x1.fffffffffffffp+1023) return 2;
+      if (!n.is_extended() && n.a0() != Q(t)) {
+        Q gap = n.a0() - Q(t);
+        double beside = std::nextafter(t, gap > 0 ? INFINITY : -INFINITY);
+        middles += gap + gap == Q(beside) - Q(t);
+      }
       return (int)nearest(t, n);
     };
     std::vector<std::pair<const Root *, const Root *>> in, on;

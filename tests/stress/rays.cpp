@@ -7,7 +7,7 @@
 using namespace stress;
 
 struct Totals {
-  unsigned long long models = 0, leaves = 0, rays = 0, quick = 0, exact = 0, unjudged = 0, ends = 0, points = 0, wrong = 0, refused = 0;
+  unsigned long long models = 0, leaves = 0, rays = 0, quick = 0, exact = 0, unjudged = 0, ends = 0, points = 0, wrong = 0, refused = 0, middles = 0;
   unsigned long long by_aim[Aims] = {0}, by_bundle[Bundles] = {0}, by_way[Ways] = {0}, found[4] = {0}, sides[3] = {0};
   double asking = 0, quickly = 0, exactly = 0;
 };
@@ -96,6 +96,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
       }
     }
   }
+  t.middles += b->middles;
   // Points: the spots themselves and places by them.
   for (int k = 0; k < 12 && !b->spots.empty(); k++) {
     V p = b->spots[(size_t)r.below((int)b->spots.size())]->point;
@@ -175,6 +176,7 @@ int main(int argc, char **argv) {
   printf("rays seed=%llu seconds=%.1f models=%llu leaves=%llu rays=%llu quick=%llu exact=%llu unjudged=%llu ends=%llu points=%llu refused=%llu wrong=%llu\n", (unsigned long long)o.seed, all,
          t.models, t.leaves, t.rays, t.quick, t.exact, t.unjudged, t.ends, t.points, t.refused, t.wrong);
   if (o.census) {
+    printf("ends in the middle between two doubles: %llu\n", t.middles);
     printf("time: asking %.1f s, quick judge %.1f s, exact judge %.1f s; %.0f models and %.0f rays a second\n", t.asking, t.quickly, t.exactly, t.models / all, t.rays / all);
     for (int i = 0; i < Aims; i++) printf("%s%s %llu", i ? ", " : "aimed: ", AIMS[i], t.by_aim[i]);
     for (int i = 0; i < Bundles; i++) printf("%s%s %llu", i ? ", " : "\nbundles: ", BUNDLES[i], t.by_bundle[i]);
