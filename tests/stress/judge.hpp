@@ -211,27 +211,18 @@ struct Bench { // one model and its judges
   // The side a point must have: the tree on every combination of sides of the surfaces through it, when these are at most three with
   // independent gradients; -1 otherwise.
   int side(const V &p) const {
-    std::vector<const Leaf *> leaves;
-    collect(solid, leaves);
-    std::vector<Cursor> cursors;
+    const Line4 at = whole(p, V{0, 0, 0});
+    std::vector<int> sign, group;
     std::vector<const Quadric *> through;
-    for (auto *l : leaves)
-      for (auto &q : l->halves) {
-        Cursor c;
-        c.sign = CGAL::sign(q(p));
-        if (c.sign == 0) {
-          size_t g = 0;
-          while (g < through.size() && !proportional(*through[g], q)) g++;
-          if (g == through.size()) through.push_back(&q);
-          c.group = (int)g, c.sign = 1;
-          for (int i = 0; i < 16; i++)
-            if (q.a[i / 4][i % 4] != 0) {
-              c.sign = CGAL::sign(q.a[i / 4][i % 4]) * CGAL::sign(through[g]->a[i / 4][i % 4]);
-              break;
-            }
-        }
-        cursors.push_back(c);
-      }
+    for (size_t s = 0; s < surfaces.forms.size(); s++) {
+      sign.push_back(CGAL::sign(along(surfaces.forms[s], at).c)), group.push_back(-1);
+      if (sign[s] == 0) group[s] = (int)through.size(), sign[s] = 1, through.push_back(surfaces.quadrics[s]);
+    }
+    std::vector<Cursor> cursors(surfaces.of.size());
+    for (size_t h = 0; h < cursors.size(); h++) {
+      size_t s = surfaces.of[h];
+      cursors[h].sign = sign[s] * surfaces.side[h], cursors[h].group = group[s];
+    }
     if (through.size() > 3) return -1;
     std::vector<V> g;
     for (auto *q : through) g.push_back(q->gradient(p));
@@ -240,8 +231,8 @@ struct Bench { // one model and its judges
     if (g.size() == 3 && dot(g[0], cross(g[1], g[2])) == 0) return -1;
     unsigned in = 0, n = 1u << through.size();
     for (unsigned k = 0; k < n; k++) {
-      size_t at = 0;
-      in += evaluate(solid, cursors, at, k);
+      size_t half = 0;
+      in += evaluate(solid, cursors, half, k);
     }
     return in == 0 ? QUOIN_OUTSIDE : in == n ? QUOIN_INSIDE : QUOIN_BOUNDARY;
   }

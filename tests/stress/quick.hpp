@@ -220,6 +220,45 @@ struct Quick {
   void set_leaf(uint32_t l, int on) {
     if (leaf_on[l] != on) leaf_on[l] = on, pass(leaf_parent[l], leaf_first[l], on);
   }
+  // Every leaf off. Intersections count children that do not hold: all of them.
+  void rest() {
+    root_on = false;
+    std::fill(leaf_on.begin(), leaf_on.end(), 0);
+    std::fill(failing.begin(), failing.end(), 0);
+    std::fill(gate_first.begin(), gate_first.end(), 0);
+    std::fill(gate_others.begin(), gate_others.end(), 0);
+    auto off = [&](uint32_t parent) {
+      if (parent != UINT32_MAX && gates[parent].op == Node::Intersection) gate_first[parent]++;
+    };
+    for (auto &g : gates) off(g.parent);
+    for (uint32_t p : leaf_parent) off(p);
+  }
+  // The side of a point: 0 outside, 2 inside, -1 not known.
+  int side(const double p[3]) {
+    for (size_t l = 0; l < touched.size(); l++) {
+      const Ball &b = balls[l];
+      double far = 0, size = 0;
+      for (int i = 0; i < 3; i++) far = std::hypot(far, p[i] - b.centre[i]), size += std::fabs(p[i]) + std::fabs(b.centre[i]);
+      touched[l] = !(far > b.radius * 1.001 + size * 0x1p-40);
+    }
+    rest();
+    for (uint32_t s = 0; s < forms.size(); s++) {
+      bool any = false;
+      for (auto &use : uses[s]) any |= touched[use.leaf] != 0;
+      if (!any) continue;
+      const Form &f = forms[s];
+      Num y[3], c = f.c;
+      for (int i = 0; i < 3; i++) y[i] = exactly(p[i]) - exactly(f.pivot[i]), c = c + exactly(2) * (f.b[i] * y[i]);
+      static const int at[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+      for (int k = 0; k < 6; k++)
+        if (!none(f.a[k])) c = c + f.a[k] * (y[at[k][0]] * y[at[k][1]]);
+      int sc = sign_of(c);
+      if (sc == 2 || sc == 0) return -1;
+      for (auto &use : uses[s]) failing[use.leaf] += sc * use.side > 0;
+    }
+    for (uint32_t l = 0; l < touched.size(); l++) set_leaf(l, touched[l] && failing[l] == 0);
+    return root_on ? 2 : 0;
+  }
   void solve(uint32_t s, const double o[3], const double d[3]) {
     Solved &r = solved[s];
     const Form &f = forms[s];
@@ -301,18 +340,7 @@ struct Quick {
       }
     }
     for (auto &s : solved) s.state = -1;
-    root_on = false;
-    std::fill(leaf_on.begin(), leaf_on.end(), 0);
-    for (size_t g = 0; g < gates.size(); g++) gate_first[g] = gate_others[g] = 0;
-    for (size_t g = 0; g < gates.size(); g++)
-      if (gates[g].op == Node::Intersection) gate_first[g] = 0;
-    // Intersections count children that do not hold: all of them to begin with.
-    for (size_t g = gates.size(); g-- > 0;) {
-      if (gates[g].parent != UINT32_MAX && gates[gates[g].parent].op == Node::Intersection) gate_first[gates[g].parent]++;
-    }
-    for (size_t l = 0; l < leaf_parent.size(); l++)
-      if (leaf_parent[l] != UINT32_MAX && gates[leaf_parent[l]].op == Node::Intersection) gate_first[leaf_parent[l]]++;
-    std::fill(failing.begin(), failing.end(), 0);
+    rest();
     for (uint32_t s = 0; s < forms.size(); s++) {
       bool any = false;
       for (auto &use : uses[s]) any |= touched[use.leaf] != 0;

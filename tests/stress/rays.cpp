@@ -33,6 +33,72 @@ static void found(Totals &t, const Options &o, Case c, uint64_t model_seed, cons
   }
 }
 
+static void wrong_point(const Bench &b, uint64_t seed, const Options &o, const std::string c[3], int said, int should, quoin_status s, const char *how) {
+  std::string path = o.finds + "/point_" + std::to_string(seed) + ".csg";
+  FILE *f = fopen(path.c_str(), "w");
+  if (f) {
+    fprintf(f, "// wrong side of a point: %d, should be %d, status %s\n// point %s %s %s (%s)\n// again: stress_rays --leaves %d --again %llu\n%s", said, should, quoin_status_text(s), c[0].c_str(),
+            c[1].c_str(), c[2].c_str(), how, o.leaves, (unsigned long long)seed, b.text.c_str());
+    fclose(f);
+  }
+  fprintf(stderr, "WRONG side of a point: %s\n", path.c_str());
+}
+
+// Points: the places of interest, exactly and a little beside, as decimals one by one and as doubles in batches.
+static void ask_points(Bench &b, uint64_t seed, Random &r, const Options &o, Totals &t) {
+  for (int k = 0; k < 6 && !b.spots.empty(); k++) {
+    V p = b.spots[(size_t)r.below((int)b.spots.size())]->point;
+    if (!is_decimal(p[0]) || !is_decimal(p[1]) || !is_decimal(p[2])) continue;
+    if (r.chance(40)) p[(size_t)r.below(3)] += (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(1, 120));
+    int should = b.side(p);
+    if (should < 0) continue;
+    quoin_side said = QUOIN_OUTSIDE;
+    std::string d[3];
+    const char *c[3];
+    for (int i = 0; i < 3; i++) d[i] = decimal(p[(size_t)i]), c[i] = d[i].c_str();
+    quoin_status s = quoin_point_side_text(b.model.scene, b.model.work, c, &said);
+    t.points++, t.sides[should]++;
+    if (s != QUOIN_OK || said != should) {
+      t.wrong++;
+      wrong_point(b, seed, o, d, said, should, s, "as decimals");
+      return;
+    }
+  }
+  for (int k = 0; k < 3 && !b.spots.empty(); k++) {
+    size_t n = r.chance(50) ? 64 : (size_t)r.range(1, 150);
+    int kind = r.below(4), step = r.range(0, 52);
+    std::vector<double> x(3 * n);
+    std::vector<quoin_side> said(n);
+    V first = b.spots[(size_t)r.below((int)b.spots.size())]->point;
+    for (size_t i = 0; i < n; i++) {
+      V p = kind == 0 ? b.spots[(size_t)r.below((int)b.spots.size())]->point : first;
+      for (size_t j = 0; j < 3; j++) {
+        double &v = x[3 * i + j];
+        v = CGAL::to_double(p[j]);
+        if (kind == 1 && i) v += std::ldexp((double)r.range(-4, 4), -step);
+        if (kind == 2) v += std::ldexp((double)(j == 0 ? i % 8 : j == 1 ? i / 8 : 0), -step);
+        if (kind != 1)
+          for (int m = r.chance(20) ? r.below(4) : 0; m > 0; m--) v = std::nextafter(v, r.chance(50) ? INFINITY : -INFINITY);
+        if (std::fabs(v) < 0x1p-300) v = 0;
+      }
+    }
+    quoin_status s = quoin_point_sides(b.model.scene, b.work(r.below(3)), n, x.data(), said.data());
+    for (size_t i = 0; i < n; i++) {
+      int should = b.quick.side(&x[3 * i]);
+      V p{Q(x[3 * i]), Q(x[3 * i + 1]), Q(x[3 * i + 2])};
+      if (should < 0 || (int)said[i] != should || r.below(1000) < o.share) should = b.side(p);
+      if (should < 0) continue;
+      t.points++, t.sides[should]++;
+      if (s != QUOIN_OK || (int)said[i] != should) {
+        t.wrong++;
+        std::string d[3] = {decimal(p[0]), decimal(p[1]), decimal(p[2])};
+        wrong_point(b, seed, o, d, said[i], should, s, "as doubles, in a batch");
+        return;
+      }
+    }
+  }
+}
+
 static void one_model(uint64_t seed, const Options &o, Totals &t) {
   Random r(seed);
   Style st;
@@ -97,48 +163,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     }
   }
   t.middles += b->middles;
-  // Points: the spots themselves and places by them.
-  for (int k = 0; k < 12 && !b->spots.empty(); k++) {
-    V p = b->spots[(size_t)r.below((int)b->spots.size())]->point;
-    if (!is_decimal(p[0]) || !is_decimal(p[1]) || !is_decimal(p[2])) continue;
-    if (r.chance(40)) p[(size_t)r.below(3)] += (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(1, 120));
-    bool text = r.chance(50);
-    double x[3];
-    for (int i = 0; i < 3; i++) {
-      x[i] = CGAL::to_double(p[(size_t)i]);
-      if (!text) p[(size_t)i] = Q(x[i]);
-    }
-    int should = b->side(p);
-    if (should < 0) continue;
-    quoin_side said = QUOIN_OUTSIDE;
-    quoin_status s;
-    std::string d[3];
-    const char *c[3];
-    for (int i = 0; i < 3; i++) d[i] = decimal(p[(size_t)i]), c[i] = d[i].c_str();
-    if (text) s = quoin_point_side_text(b->model.scene, b->model.work, c, &said);
-    else {
-      double many[8 * 3];
-      quoin_side sides[8];
-      size_t n = r.chance(50) ? 1 : 8;
-      for (size_t i = 0; i < n * 3; i++) many[i] = x[i % 3];
-      for (size_t i = 3; i < n * 3; i++) many[i] += std::ldexp((double)r.range(-2, 2), -r.range(0, 60));
-      s = quoin_point_sides(b->model.scene, b->work(r.below(3)), n, many, sides);
-      said = sides[0];
-    }
-    t.points++, t.sides[should]++;
-    if (s != QUOIN_OK || said != should) {
-      t.wrong++;
-      std::string path = o.finds + "/point_" + std::to_string(seed) + ".csg";
-      FILE *f = fopen(path.c_str(), "w");
-      if (f) {
-        fprintf(f, "// wrong side of a point: %d, should be %d, status %s\n// point %s %s %s (%s)\n// again: stress_rays --again %llu\n%s", said, should, quoin_status_text(s), c[0], c[1], c[2],
-                text ? "as decimals" : "as doubles", (unsigned long long)seed, b->text.c_str());
-        fclose(f);
-      }
-      fprintf(stderr, "WRONG side of a point: %s\n", path.c_str());
-      return;
-    }
-  }
+  ask_points(*b, seed, r, o, t);
 }
 
 int main(int argc, char **argv) {
