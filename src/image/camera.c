@@ -6,16 +6,16 @@
    Orthographic: o = e + x (a s D) r + y s D u,  d = f,  with D = |look - eye|: the size that perspective shows at `look`.
    d . f = 1 in both, so a ray's t is the depth.
 
-   Framing. Let c be the box's centre and w = -f. A corner c + v is in the picture of an eye at c + p r + q u + D w when
+   Framing. Let c be the box's centre and w = -f. A point c + v is in the picture of an eye at c + p r + q u + D w when
        |v.r - p| <= a s (D - v.w)   and   |v.u - q| <= s (D - v.w).
-   With A = max(v.r + a s v.w) and B = max(-v.r + a s v.w) over the corners, the first holds for all corners when
+   With A = max(v.r + a s v.w) and B = max(-v.r + a s v.w) over the solid, the first holds for all of it when
    a s D >= A - p and a s D >= B + p; the smallest D is (A + B) / (2 a s), with p = (A - B)/2. The same for u. The larger D of the two
    is taken; in the direction that has room left, p may be anything in [A - a s D, a s D - B], and is chosen such that the picture
    is centred. In orthographic views the same holds with v.w left out: the size is the larger half extent, and the eye stands
    clear of the box. */
 #include "image/camera.h"
+#include "image/frame.h"
 #include "image/vec.h"
-#include "scene/scene.h"
 
 #include <string.h>
 
@@ -48,6 +48,24 @@ static int make_frame(const double look_along[3], const double wished_up[3], dou
   return qn_unit3(up);
 }
 
+/* The tangent of an angle in (0, 90) degrees, of plain operations, so that it has the same bits on every machine: by Taylor's series of sine and cosine up to
+   45 degrees (cut after the 19th power: under 2^-53), by the complement's inverse above. */
+static double tangent(double degrees) {
+  if (degrees == 45) {
+    return 1;
+  }
+  if (degrees > 45) {
+    return 1 / tangent(90 - degrees);
+  }
+  const double x = degrees * DEGREE, z = x * x;
+  double sine = 1, cosine = 1;
+  for (int n = 18; n > 0; n -= 2) { /* from the last term inwards */
+    sine = 1 - sine * z / (n * (n + 1));
+    cosine = 1 - cosine * z / (n * (n - 1));
+  }
+  return x * sine / cosine;
+}
+
 quoin_status qn_frustum_make(const quoin_camera *camera, size_t width, size_t height, qn_frustum *out) {
   qn_frustum f = {.near = camera->near, .width = (double)width, .height = (double)height};
   double along[3];
@@ -59,10 +77,10 @@ quoin_status qn_frustum_make(const quoin_camera *camera, size_t width, size_t he
       !(camera->near >= 0) || !isfinite(camera->near) || !make_frame(along, camera->up, f.right, f.up, f.forward)) {
     return QUOIN_E_ARGUMENT;
   }
-  f.half_h = tan(camera->fov / 2 * DEGREE);
+  f.half_h = tangent(camera->fov / 2);
   f.orthographic = camera->projection == QUOIN_ORTHOGRAPHIC;
   if (f.orthographic) {
-    f.half_h *= hypot(hypot(along[0], along[1]), along[2]);
+    f.half_h *= qn_length3(along);
   }
   f.half_w = f.half_h * (f.width / f.height);
   if (!(f.half_h > 0) || !(f.half_w > 0) || !isfinite(f.half_w) || !isfinite(f.half_h)) {
@@ -153,75 +171,42 @@ static void box_to_frame(const quoin_scene *scene, double min[3], double max[3])
   }
 }
 
-/* The boxes that hold a solid more closely than its own: those of its leaves, clipped to it. A leaf whose outside is meant holds
-   nothing: a bounded solid lies in its other leaves. Calls visit with each; with the whole box when there are none. */
-static void each_box(const quoin_scene *scene, const double min[3], const double max[3],
-                     void (*visit)(void *user, const double min[3], const double max[3]), void *user) {
-  size_t boxes = 0;
-  for (size_t l = 0; l < scene->leaf_count && !scene->empty; l++) {
-    double low[3], high[3];
-    int some = !scene->leaves[l].negated;
-    for (int i = 0; i < 3; i++) {
-      low[i] = fmax(min[i], scene->leaves[l].min[i]);
-      high[i] = fmin(max[i], scene->leaves[l].max[i]);
-      some = some && low[i] <= high[i];
-    }
-    if (some) {
-      visit(user, low, high);
-      boxes++;
-    }
-  }
-  if (boxes == 0) {
-    visit(user, min, max);
-  }
-}
+enum { CENTRING_STEPS = 4, SLOPE_STEPS = 4 };
 
-/* The maxima of the derivation over all corners: A and B to the right, A and B upwards, and how far the boxes reach towards the eye. */
-typedef struct reach {
-  double centre[3], axes[5][3], most[5];
-} reach;
-
-static void reach_box(void *user, const double min[3], const double max[3]) {
-  reach *r = user;
-  for (int k = 0; k < 5; k++) {
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-      sum += fmax(r->axes[k][i] * (min[i] - r->centre[i]), r->axes[k][i] * (max[i] - r->centre[i]));
-    }
-    r->most[k] = fmax(r->most[k], sum);
-  }
-}
-
-/* The picture's extent in one direction as seen from an eye that is `off` along it: the largest slopes to either side. */
+/* What is framed, seen from an eye that is `off` along one direction of the picture. */
 typedef struct extent {
+  const qn_framed *framed;
   const double *centre, *axis, *w;
   double off, distance; /* distance infinite: orthographic, slopes are offsets */
-  double more, less;
+  double deep;          /* from the eye's plane to what is farthest from it */
 } extent;
 
-static void extent_box(void *user, const double min[3], const double max[3]) {
-  extent *e = user;
-  for (int k = 0; k < 8; k++) {
-    double along = 0, towards = 0;
+/* The largest slope, to one side (way 1 or -1), at which something is seen from there: the k with reach(way axis + k w) = way off + k D. The left side
+   less the right is convex in k and falls no faster than `deep`, so steps by that never pass the solution; `from` is where they start. For looks only: a
+   few steps come near enough. */
+static double slope(const extent *e, double way, double from) {
+  double k = from;
+  for (int step = 0; step < SLOPE_STEPS; step++) {
+    double v[3];
     for (int i = 0; i < 3; i++) {
-      const double v = (k >> i & 1 ? max[i] : min[i]) - e->centre[i];
-      along += v * e->axis[i];
-      towards += v * e->w[i];
+      v[i] = way * e->axis[i] + (isinf(e->distance) ? 0 : k * e->w[i]);
     }
-    const double slope = (along - e->off) / (isinf(e->distance) ? 1 : e->distance - towards);
-    e->more = fmax(e->more, slope);
-    e->less = fmax(e->less, -slope);
+    const double reach = qn_framed_reach(e->framed, e->centre, v) - way * e->off;
+    if (isinf(e->distance)) {
+      return reach;
+    }
+    k += (reach - k * e->distance) / e->deep;
   }
+  return k;
 }
 
-enum { CENTRING_STEPS = 4 };
 /* Moves the eye along one direction of the picture until what it sees is as far from one edge as from the other, within the
    range [low, high] that keeps all of it in the picture: a fixed-point iteration that needs no more than a few steps, for looks only. */
-static double centred(const quoin_scene *scene, const double min[3], const double max[3], extent e, double low, double high) {
+static double centred(extent e, double low, double high) {
+  double more = 0, less = 0;
   for (int step = 0; step < CENTRING_STEPS && low < high; step++) {
-    e.more = e.less = -INFINITY;
-    each_box(scene, min, max, extent_box, &e);
-    e.off = fmin(high, fmax(low, e.off + (e.more - e.less) / 2 * (isinf(e.distance) ? 1 : e.distance)));
+    more = slope(&e, 1, more), less = slope(&e, -1, less);
+    e.off = fmin(high, fmax(low, e.off + (more - less) / 2 * (isinf(e.distance) ? 1 : e.distance)));
   }
   return e.off;
 }
@@ -232,36 +217,40 @@ void quoin_camera_default(const quoin_scene *scene, double aspect, quoin_project
   if (!(aspect > 0) || !isfinite(aspect)) {
     aspect = 1;
   }
-  double min[3], max[3], along[3], r[3], u[3], f[3], w[3];
-  reach fit = {.most = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY}};
+  double min[3], max[3], along[3], centre[3], r[3], u[3], f[3], w[3];
   box_to_frame(scene, min, max);
   for (int i = 0; i < 3; i++) {
-    fit.centre[i] = max[i] / 2 + min[i] / 2;
+    centre[i] = max[i] / 2 + min[i] / 2;
     along[i] = -view_from[i];
   }
+  qn_framed framed;
+  qn_framed_make(scene, min, max, &framed);
   make_frame(along, c.up, r, u, f);
   const int flat = projection == QUOIN_ORTHOGRAPHIC;
-  const double s = FRAME_FILL * tan(c.fov / 2 * DEGREE), as = aspect * s;
+  const double s = FRAME_FILL * tangent(c.fov / 2), as = aspect * s;
+  double axes[6][3], m[6]; /* A and B to the right, A and B upwards, and how far it reaches towards the eye and away from it */
   for (int i = 0; i < 3; i++) {
     w[i] = -f[i];
-    fit.axes[0][i] = r[i] + (flat ? 0 : as * w[i]);
-    fit.axes[1][i] = -r[i] + (flat ? 0 : as * w[i]);
-    fit.axes[2][i] = u[i] + (flat ? 0 : s * w[i]);
-    fit.axes[3][i] = -u[i] + (flat ? 0 : s * w[i]);
-    fit.axes[4][i] = w[i];
+    axes[0][i] = r[i] + (flat ? 0 : as * w[i]);
+    axes[1][i] = -r[i] + (flat ? 0 : as * w[i]);
+    axes[2][i] = u[i] + (flat ? 0 : s * w[i]);
+    axes[3][i] = -u[i] + (flat ? 0 : s * w[i]);
+    axes[4][i] = w[i];
+    axes[5][i] = f[i];
   }
-  each_box(scene, min, max, reach_box, &fit);
-  const double *m = fit.most;
+  for (int k = 0; k < 6; k++) {
+    m[k] = qn_framed_reach(&framed, centre, axes[k]);
+  }
   double distance = fmax((m[0] + m[1]) / (2 * as), (m[2] + m[3]) / (2 * s));
   distance = distance > 0 ? distance : 1;
-  const extent across = {fit.centre, r, w, (m[0] - m[1]) / 2, flat ? INFINITY : distance, 0, 0};
-  const extent upwards = {fit.centre, u, w, (m[2] - m[3]) / 2, flat ? INFINITY : distance, 0, 0};
-  const double p = centred(scene, min, max, across, m[0] - as * distance, as * distance - m[1]);
-  const double q = centred(scene, min, max, upwards, m[2] - s * distance, s * distance - m[3]);
+  const extent across = {&framed, centre, r, w, (m[0] - m[1]) / 2, flat ? INFINITY : distance, distance + m[5]};
+  const extent upwards = {&framed, centre, u, w, (m[2] - m[3]) / 2, flat ? INFINITY : distance, distance + m[5]};
+  const double p = centred(across, m[0] - as * distance, as * distance - m[1]);
+  const double q = centred(upwards, m[2] - s * distance, s * distance - m[3]);
   /* Orthographic: the distance from eye to look gives the size; the eye stands clear of the box whatever that is. */
   const double clear = flat ? m[4] + distance : distance;
   for (int i = 0; i < 3; i++) {
-    c.eye[i] = fit.centre[i] + p * r[i] + q * u[i] - clear * f[i];
+    c.eye[i] = centre[i] + p * r[i] + q * u[i] - clear * f[i];
     c.look[i] = c.eye[i] + distance * f[i];
   }
   *out = c;

@@ -26,4 +26,14 @@ QN_INLINE int qn_unit3(double v[3]) {
   return 1;
 }
 
+/* |v|, scaled likewise. */
+QN_INLINE double qn_length3(const double v[3]) {
+  const double m = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+  if (!(m > 0) || !isfinite(m)) {
+    return m;
+  }
+  const double x = v[0] / m, y = v[1] / m, z = v[2] / m;
+  return m * sqrt(x * x + y * y + z * z);
+}
+
 #endif

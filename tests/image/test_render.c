@@ -169,6 +169,55 @@ static void machines_do_not_show(void **state) {
   }
 }
 
+/* The default view of round solids: what is seen fills 0.92 of the picture in one direction (of those whose hull is a guess, no more than
+   that and most of it), lies within it and in its middle, to a pixel and a half. */
+static void round_solids_are_framed(void **state) {
+  (void)state;
+  static const struct { const char *text; double least; } solids[] = {
+    {"translate([3, 4, 5]) sphere(20);", 0.9},
+    {"translate([1e4, 0, 0]) rotate([10, 20, 30]) scale([1, 3, 0.2]) sphere(2);", 0.9},
+    {"ellipsoid(r = [1, 2, 9]);", 0.9},
+    {"rotate([40, 10, 0]) cylinder(h = 30, r = 4);", 0.9},
+    {"rotate([90, 0, 20]) cylinder(h = 1, r = [8, 3]);", 0.9},
+    {"translate([0, 0, -7]) cylinder(h = 3, r1 = 9, r2 = 2);", 0.9},
+    {"cylinder(base = [5, 5, 5], axis = [1, 2, -3], h = 3, r1 = 0, r2 = 6);", 0.9},
+    {"rotate([0, 70, 0]) hyperboloid(h = 5, r = 6, rc = 2);", 0.9},
+    {"rotate([20, 0, 10]) hyperboloid(h = 5, r = 6, gap = 1);", 0.9},
+    {"rotate([200, 0, 10]) paraboloid(h = 5, r = 6);", 0.8},
+    {"scale([1, 1, 4]) paraboloid(h = 5, r = 1);", 0.8},
+    {"difference() { sphere(10); translate([0, -20, 0]) cube(20); cylinder(h = 90, r = 3, center = true); }", 0.9},
+  };
+  enum { W = 240, H = 180 };
+  static unsigned char p[W * H * 4];
+  for (size_t k = 0; k < sizeof solids / sizeof *solids; k++) {
+    char text[512];
+    snprintf(text, sizeof text, "background([0, 0, 0]); material(color = [1, 1, 1], " FLAT ") %s", solids[k].text);
+    quoin_scene *scene = compile(text);
+    quoin_render_options o = quoin_render_options_default();
+    o.width = W, o.height = H, o.antialias = 0, o.has_camera = 1;
+    for (int flat = 0; flat < 2; flat++) {
+      quoin_camera_default(scene, (double)W / H, flat ? QUOIN_ORTHOGRAPHIC : QUOIN_PERSPECTIVE, &o.camera);
+      assert_int_equal(quoin_render(scene, &o, p, W * 4, NULL), QUOIN_OK);
+      int left = W, right = -1, top = H, bottom = -1;
+      for (int y = 0; y < H; y++) {
+        for (int x = 0; x < W; x++) {
+          if (p[(y * W + x) * 4]) {
+            left = x < left ? x : left, right = x > right ? x : right, top = y < top ? y : top, bottom = y > bottom ? y : bottom;
+          }
+        }
+      }
+      const double wide = (right + 1.0 - left) / W, high = (bottom + 1.0 - top) / H, fill = wide > high ? wide : high;
+      assert_true(fill > solids[k].least && fill < 0.92 + 2.0 / H);
+      if (solids[k].least == 0.9) {
+        assert_true(abs(left + right + 1 - W) <= 3 && abs(top + bottom + 1 - H) <= 3);
+      } else {
+        assert_true(left > 0 && right < W - 1 && top > 0 && bottom < H - 1);
+      }
+    }
+    quoin_scene_free(scene);
+  }
+}
+
 /* A bore's wall has the colour of what bored it; the rest has the block's. Seen through a slanted view of the bore from the
    front. */
 static void cut_face_takes_the_cutter(void **state) {
@@ -388,7 +437,7 @@ static void memory_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(outline_of_a_ball),         cmocka_unit_test(antialiased_edge), cmocka_unit_test(threads_do_not_show), cmocka_unit_test(machines_do_not_show),
+    cmocka_unit_test(outline_of_a_ball),         cmocka_unit_test(antialiased_edge), cmocka_unit_test(threads_do_not_show), cmocka_unit_test(machines_do_not_show), cmocka_unit_test(round_solids_are_framed),
     cmocka_unit_test(cut_face_takes_the_cutter), cmocka_unit_test(shadow_lies_where_it_must), cmocka_unit_test(no_specks),
     cmocka_unit_test(inside_walls),              cmocka_unit_test(refused_arguments), cmocka_unit_test(empty_scene),
     cmocka_unit_test(progress_and_cancelling),   cmocka_unit_test(memory_is_refused),
