@@ -35,6 +35,9 @@ QUOIN_API quoin_render_options quoin_render_options_default(void);
    solid gets a view of the unit cube around the origin (of its bounded sides where it has some). */
 QUOIN_API void quoin_camera_default(const quoin_scene *scene, double aspect, quoin_projection projection, quoin_camera *out);
 
+/* The same with a field of view of its own, in degrees; where that is not over 0 and under 180, quoin_camera_default's. */
+QUOIN_API void quoin_camera_fit(const quoin_scene *scene, double aspect, quoin_projection projection, double fov, quoin_camera *out);
+
 typedef struct quoin_render_stats {
   uint64_t camera_rays, shadow_rays, refined_pixels;
   uint64_t hits; /* camera rays that meet the solid; 0: nothing is in view */

@@ -4,7 +4,6 @@
 #include "cli/say.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -118,60 +117,6 @@ static int take(void *user, int id, const char *value) {
   }
 }
 
-/* Moves a camera that frames the solid so that it does with another field of view.
-
-   Legend: e eye, l look, D = |e - l|, w = (e - l)/D, r and u the picture's right and up, s = tan(fov/2), a the aspect.
-   Orthographic: the picture is 2 s D high, so s D stays; the eye stays and look moves. Perspective: a corner l + v of the
-   solid's box is in the picture if |v.r| <= a s (D - v.w) and |v.u| <= s (D - v.w), so D is the greatest of
-   v.w + |v.r|/(a s) and v.w + |v.u|/s over the corners; look stays and the eye moves. */
-static void refit(quoin_camera *camera, const quoin_scene *scene, double aspect, double fov) {
-  const double half = atan(1.0) / 90.0; /* half a degree in radians */
-  const double fill = 0.92; /* of the picture, the rest is margin */
-  double old = tan(camera->fov * half), s = tan(fov * half), w[3], u[3], r[3], length = 0;
-  for (int i = 0; i < 3; i++) {
-    w[i] = camera->eye[i] - camera->look[i];
-    length = hypot(length, w[i]);
-  }
-  if (camera->projection == QUOIN_ORTHOGRAPHIC) {
-    for (int i = 0; i < 3; i++) {
-      camera->look[i] = camera->eye[i] - w[i] * (old / s);
-    }
-    return;
-  }
-  double along = 0, upright = 0; /* u: up, less its part along w; r = u x w */
-  for (int i = 0; i < 3; i++) {
-    w[i] /= length;
-    along += camera->up[i] * w[i];
-  }
-  for (int i = 0; i < 3; i++) {
-    u[i] = camera->up[i] - along * w[i];
-    upright = hypot(upright, u[i]);
-  }
-  for (int i = 0; i < 3; i++) {
-    u[i] /= upright;
-  }
-  for (int i = 0; i < 3; i++) {
-    r[i] = u[(i + 1) % 3] * w[(i + 2) % 3] - u[(i + 2) % 3] * w[(i + 1) % 3];
-  }
-  quoin_scene_info info;
-  quoin_scene_get_info(scene, &info);
-  double distance = 0;
-  for (int corner = 0; corner < 8 && !info.empty && !info.unbounded; corner++) {
-    double vw = 0, vr = 0, vu = 0;
-    for (int i = 0; i < 3; i++) {
-      double v = (corner >> i & 1 ? info.box_max[i] : info.box_min[i]) - camera->look[i];
-      vw += v * w[i];
-      vr += v * r[i];
-      vu += v * u[i];
-    }
-    distance = fmax(distance, vw + fmax(fabs(vr) / aspect, fabs(vu)) / (fill * s));
-  }
-  distance = distance > 0 ? distance : length * (old / s); /* no box: what is at the distance of look keeps its size */
-  for (int i = 0; i < 3; i++) {
-    camera->eye[i] = camera->look[i] + distance * w[i];
-  }
-}
-
 /* The camera of --camera, --projection and --fov; without --camera the other two frame the solid anew. */
 static void set_camera(job *j, const quoin_scene *scene) {
   if (!j->has_camera && !j->has_projection && !j->has_fov) {
@@ -179,7 +124,7 @@ static void set_camera(job *j, const quoin_scene *scene) {
   }
   quoin_camera *camera = &j->options.camera;
   j->options.has_camera = 1;
-  quoin_camera_default(scene, (double)j->options.width / (double)j->options.height, j->projection, camera);
+  quoin_camera_fit(scene, (double)j->options.width / (double)j->options.height, j->projection, j->has_fov ? j->fov : 0, camera);
   if (j->has_camera) {
     memcpy(camera->eye, j->camera, sizeof camera->eye);
     memcpy(camera->look, j->camera + 3, sizeof camera->look);
@@ -187,11 +132,6 @@ static void set_camera(job *j, const quoin_scene *scene) {
     const double up[3] = {0, vertical, !vertical}; /* looking straight down or up, y is up in the picture */
     memcpy(camera->up, up, sizeof up);
     camera->near = 0;
-  } else if (j->has_fov) {
-    refit(camera, scene, (double)j->options.width / (double)j->options.height, j->fov);
-  }
-  if (j->has_fov) {
-    camera->fov = j->fov;
   }
 }
 

@@ -178,14 +178,13 @@ typedef struct extent {
   const qn_framed *framed;
   const double *centre, *axis, *w;
   double off, distance; /* distance infinite: orthographic, slopes are offsets */
-  double deep;          /* from the eye's plane to what is farthest from it */
+  double near, deep;    /* from the eye's plane to what is nearest to it and farthest from it */
 } extent;
 
-/* The largest slope, to one side (way 1 or -1), at which something is seen from there: the k with reach(way axis + k w) = way off + k D. The left side
-   less the right is convex in k and falls no faster than `deep`, so steps by that never pass the solution; `from` is where they start. For looks only: a
-   few steps come near enough. */
+/* The largest slope, to one side (way 1 or -1), at which something is seen from there: the k with reach(way axis + k w) = way off + k D. By secants; the left
+   side less the right falls no faster than `deep`, which makes the first step. For looks only: a few steps come near enough. */
 static double slope(const extent *e, double way, double from) {
-  double k = from;
+  double k = from, last_k = from, last = 0;
   for (int step = 0; step < SLOPE_STEPS; step++) {
     double v[3];
     for (int i = 0; i < 3; i++) {
@@ -195,25 +194,39 @@ static double slope(const extent *e, double way, double from) {
     if (isinf(e->distance)) {
       return reach;
     }
-    k += (reach - k * e->distance) / e->deep;
+    const double excess = reach - k * e->distance, fall = step ? (excess - last) / (last_k - k) : e->deep;
+    if (excess == 0 || !(fall > 0)) {
+      break;
+    }
+    last = excess, last_k = k;
+    k += excess / fall;
   }
   return k;
 }
 
 /* Moves the eye along one direction of the picture until what it sees is as far from one edge as from the other, within the
-   range [low, high] that keeps all of it in the picture: a fixed-point iteration that needs no more than a few steps, for looks only. */
+   range [low, high] that keeps all of it in the picture: by secants too. A move by d changes a slope by d / depth. */
 static double centred(extent e, double low, double high) {
-  double more = 0, less = 0;
+  double more = 0, less = 0, last_off = e.off, last = 0;
   for (int step = 0; step < CENTRING_STEPS && low < high; step++) {
     more = slope(&e, 1, more), less = slope(&e, -1, less);
-    e.off = fmin(high, fmax(low, e.off + (more - less) / 2 * (isinf(e.distance) ? 1 : e.distance)));
+    const double uneven = more - less, fall = step ? (uneven - last) / (last_off - e.off) : isinf(e.distance) ? 2 : 2 / e.near;
+    if (uneven == 0 || !(fall > 0)) {
+      break;
+    }
+    last = uneven, last_off = e.off;
+    e.off = fmin(high, fmax(low, e.off + uneven / fall));
   }
   return e.off;
 }
 
 void quoin_camera_default(const quoin_scene *scene, double aspect, quoin_projection projection, quoin_camera *out) {
+  quoin_camera_fit(scene, aspect, projection, 0, out);
+}
+
+void quoin_camera_fit(const quoin_scene *scene, double aspect, quoin_projection projection, double fov, quoin_camera *out) {
   const qn_view *said = &scene->model->view;
-  quoin_camera c = {.up = {0, 0, 1}, .fov = said->has_fov ? said->fov : DEFAULT_FOV, .projection = projection};
+  quoin_camera c = {.up = {0, 0, 1}, .fov = fov > 0 && fov < 180 ? fov : said->has_fov ? said->fov : DEFAULT_FOV, .projection = projection};
   if (!(aspect > 0) || !isfinite(aspect)) {
     aspect = 1;
   }
@@ -243,8 +256,8 @@ void quoin_camera_default(const quoin_scene *scene, double aspect, quoin_project
   }
   double distance = fmax((m[0] + m[1]) / (2 * as), (m[2] + m[3]) / (2 * s));
   distance = distance > 0 ? distance : 1;
-  const extent across = {&framed, centre, r, w, (m[0] - m[1]) / 2, flat ? INFINITY : distance, distance + m[5]};
-  const extent upwards = {&framed, centre, u, w, (m[2] - m[3]) / 2, flat ? INFINITY : distance, distance + m[5]};
+  const extent across = {&framed, centre, r, w, (m[0] - m[1]) / 2, flat ? INFINITY : distance, distance - m[4], distance + m[5]};
+  const extent upwards = {&framed, centre, u, w, (m[2] - m[3]) / 2, flat ? INFINITY : distance, distance - m[4], distance + m[5]};
   const double p = centred(across, m[0] - as * distance, as * distance - m[1]);
   const double q = centred(upwards, m[2] - s * distance, s * distance - m[3]);
   /* Orthographic: the distance from eye to look gives the size; the eye stands clear of the box whatever that is. */

@@ -195,8 +195,10 @@ static void round_solids_are_framed(void **state) {
     quoin_scene *scene = compile(text);
     quoin_render_options o = quoin_render_options_default();
     o.width = W, o.height = H, o.antialias = 0, o.has_camera = 1;
-    for (int flat = 0; flat < 2; flat++) {
-      quoin_camera_default(scene, (double)W / H, flat ? QUOIN_ORTHOGRAPHIC : QUOIN_PERSPECTIVE, &o.camera);
+    for (int turn = 0; turn < 6; turn++) {
+      const double fov = turn % 3 == 0 ? 0 : turn % 3 == 1 ? 12 : 75;
+      quoin_camera_fit(scene, (double)W / H, turn < 3 ? QUOIN_ORTHOGRAPHIC : QUOIN_PERSPECTIVE, fov, &o.camera);
+      assert_true(o.camera.fov == (fov > 0 ? fov : 30));
       assert_int_equal(quoin_render(scene, &o, p, W * 4, NULL), QUOIN_OK);
       int left = W, right = -1, top = H, bottom = -1;
       for (int y = 0; y < H; y++) {
