@@ -14,12 +14,15 @@ typedef struct quoin_work quoin_work;   /* one thread's scratch for one scene */
 typedef struct quoin_compile_options {
   unsigned threads;        /* 0: as many as the machine has */
   quoin_progress progress; /* report may be null */
+  const char *snap;        /* a decimal, 0 or more: surfaces no further apart are made one (quoin_scene_snapped says which); null, the
+                              default: none, surfaces are as the model says */
 } quoin_compile_options;
 QUOIN_API quoin_compile_options quoin_compile_options_default(void);
 
 /* Compiles a model: finds equal surfaces, simplifies, bounds, builds the hierarchy. The model is frozen from then on;
    it may be freed before the scene. Warnings are added to the model's diagnostics. options may be null.
-   QUOIN_E_MODEL: the model has errors. Cost: n log n in the number of leaves. */
+   QUOIN_E_MODEL: the model has errors. QUOIN_E_NUMBER, QUOIN_E_ARGUMENT: `snap` is not a decimal, or is negative.
+   Cost: n log n in the number of leaves; with `snap` about three times that. */
 QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compile_options *options, quoin_scene **out);
 QUOIN_API void quoin_scene_free(quoin_scene *scene); /* null is allowed; every quoin_work of it must be freed first */
 
@@ -47,6 +50,36 @@ QUOIN_API const char *quoin_part_name(const quoin_scene *scene, quoin_part part)
 typedef enum quoin_role { QUOIN_BODY = 0, QUOIN_CAP0 = 1, QUOIN_CAP1 = 2, QUOIN_FACE = 3 /* + k */ } quoin_role;
 /* Writes "body", "cap0", "cap1" or "face K"; returns as snprintf does. */
 QUOIN_API int quoin_role_text(uint32_t role, char *text, size_t size);
+
+/* A surface as the user would name it: of several parts that share it, the first. */
+typedef struct quoin_near_face {
+  const char *name; /* as of quoin_part_name */
+  uint32_t role;
+  const char *file; /* where the part stands; line 0: it was made by calls */
+  uint32_t line, column;
+} quoin_near_face;
+
+/* Two surfaces that nearly coincide. docs/exactness.md says what their gap is. */
+typedef struct quoin_near {
+  double gap;              /* the double nearest to it */
+  const char *exact;       /* the gap exactly, as a decimal or a fraction, where it is rational and this takes at most 40 bytes; else "" */
+  int opposite;            /* the two parts lie on opposite sides of them */
+  quoin_near_face face[2]; /* the one that moves when they are snapped, and the one that stands for both */
+} quoin_near;
+
+/* Finds the surfaces of a compiled scene that nearly coincide: whose gap is `limit` (a decimal) or less, and whose parts' boxes come as near;
+   the smallest gaps first. limit null: 10^-5 of the largest coordinate of the scene, as far as two roundings of one number to six digits can be
+   apart. Nothing is changed. Free the list before the scene. QUOIN_E_NUMBER, QUOIN_E_ARGUMENT: as of quoin_scene_compile.
+   Cost: n log n in the number of surfaces, and some 10 us a pair; a search that meets very many pairs is cut (quoin_near_complete). */
+typedef struct quoin_near_list quoin_near_list;
+QUOIN_API quoin_status quoin_near_find(const quoin_scene *scene, const char *limit, quoin_near_list **out);
+QUOIN_API void quoin_near_free(quoin_near_list *list); /* null is allowed */
+QUOIN_API size_t quoin_near_count(const quoin_near_list *list);
+QUOIN_API int quoin_near_complete(const quoin_near_list *list); /* 0: there may be more pairs */
+QUOIN_API double quoin_near_limit(const quoin_near_list *list);
+QUOIN_API quoin_status quoin_near_get(const quoin_near_list *list, size_t index, quoin_near *out); /* texts live as long as the list */
+/* What was moved, in the order of the file, of a scene compiled with `snap`; else null. Belongs to the scene. */
+QUOIN_API const quoin_near_list *quoin_scene_snapped(const quoin_scene *scene);
 
 /* Scratch for one thread. Freed with quoin_work_free before its scene. */
 QUOIN_API quoin_status quoin_work_new(const quoin_scene *scene, quoin_work **out);

@@ -6,10 +6,9 @@
 
 enum { OUTPUT = CLI_OWN };
 
-static const cli_option options[] = {
-  {OUTPUT, 'o', "output", "FILE", "write to FILE, whole or not at all; - or none: standard output"},
-  CLI_COMMON_OPTIONS,
-};
+#define OUTPUT_OPTION {OUTPUT, 'o', "output", "FILE", "write to FILE, whole or not at all; - or none: standard output"}
+static const cli_option tree_options[] = {OUTPUT_OPTION, CLI_COMMON_OPTIONS};
+static const cli_option scene_options[] = {OUTPUT_OPTION, CLI_SNAP_OPTION, CLI_COMMON_OPTIONS};
 
 static int take(void *user, int id, const char *value) {
   (void)id;
@@ -72,7 +71,7 @@ const cli_command cli_tree_command = {
   "Print a model's tree as canonical text.",
   "Constants are replaced by their values and arguments are named; the text is itself a model and reads back to the same\n"
   "tree, every number exactly.\n",
-  options,
+  tree_options,
   run_tree,
 };
 
@@ -81,6 +80,6 @@ const cli_command cli_scene_command = {
   "MODEL",
   "Print a compiled scene: its surfaces, leaves and program.",
   "The text is for reading and for tests: equal models give equal text, on any number of threads.\n",
-  options,
+  scene_options,
   run_scene,
 };

@@ -37,6 +37,7 @@ quoin_status cli_read(const cli_common *common, const char *path, int compile, c
   if (status == QUOIN_OK && compile) {
     quoin_compile_options options = quoin_compile_options_default();
     options.threads = common->threads;
+    options.snap = common->snap;
     status = quoin_scene_compile(out->model, &options, &out->scene);
     out->compile_seconds = cli_clock() - middle;
   }

@@ -173,11 +173,23 @@ int cli_take_numbers(const char *option, const char *value, int count, double *o
   return 0;
 }
 
+int cli_take_decimal(const char *option, const char *value) {
+  char *end;
+  double v = strtod(value, &end);
+  if (value[0] == '\0' || strspn(value, "0123456789+-.eE") != strlen(value) || *end || !(v >= 0) || value[0] == '-') {
+    cli_quoted q;
+    cli_error("%s is not a value for --%s; give a decimal number, 0 or more", cli_quote(&q, value), option);
+    return -1;
+  }
+  return 0;
+}
+
 static int take_common(cli_common *common, int id, const char *value) {
   cli_quoted q;
   switch (id) {
   case CLI_QUIET: common->quiet = 1; return 0;
   case CLI_STATS: common->stats = 1; return 0;
+  case CLI_SNAP: common->snap = value; return cli_take_decimal("snap", value);
   case CLI_THREADS: return cli_take_unsigned("threads", value, 0, 1024, &common->threads);
   case CLI_FACETS:
     if (strcmp(value, "auto") == 0) {

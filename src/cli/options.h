@@ -25,7 +25,7 @@ struct cli_command {
 };
 
 /* Options every command has. */
-enum { CLI_HELP = 1, CLI_QUIET, CLI_STATS, CLI_THREADS, CLI_FACETS, CLI_OWN };
+enum { CLI_HELP = 1, CLI_QUIET, CLI_STATS, CLI_THREADS, CLI_FACETS, CLI_SNAP, CLI_OWN };
 /* clang-format off */
 #define CLI_COMMON_OPTIONS \
   {CLI_THREADS, 0, "threads", "N", "use N threads; 0, the default: as many as the machine has"}, \
@@ -35,12 +35,17 @@ enum { CLI_HELP = 1, CLI_QUIET, CLI_STATS, CLI_THREADS, CLI_FACETS, CLI_OWN };
   {CLI_QUIET, 'q', "quiet", NULL, "hide warnings and notes"}, \
   {CLI_HELP, 'h', "help", NULL, "print this help"}, \
   {0, 0, NULL, NULL, NULL}
+/* Of the commands that compile. */
+#define CLI_SNAP_OPTION \
+  {CLI_SNAP, 0, "snap", "TOL", "make surfaces no further apart than TOL, a decimal, one; what\n" \
+                               "moves and how far is said; default: nothing moves"}
 /* clang-format on */
 
 typedef struct cli_common {
   int quiet, stats;
   unsigned threads;
   quoin_facets facets;
+  const char *snap; /* null: not given */
   char **operands; /* in the array that was given */
   int operand_count;
 } cli_common;
@@ -62,6 +67,8 @@ const char *cli_nearest(const char *word, const char *(*names)(const void *user,
 
 /* Values of options. Each returns 0, or non-zero after a message that names the option. */
 int cli_take_unsigned(const char *option, const char *value, unsigned long low, unsigned long high, unsigned *out);
+/* A decimal, 0 or more, left as text: its value is exact. */
+int cli_take_decimal(const char *option, const char *value);
 /* count numbers with commas (or spaces) between them, finite. */
 int cli_take_numbers(const char *option, const char *value, int count, double *out);
 

@@ -14,6 +14,7 @@ static const cli_option options[] = {
   {NAMES, 0, "names", NULL, "add the names of the parts that hold the point"},
   {JSON, 0, "json", NULL, "print each answer as a JSON object on its line"},
   {EXIT_CODE, 0, "exit-code", NULL, "exit with 0 if all points are inside, with 1 if one is not"},
+  CLI_SNAP_OPTION,
   CLI_COMMON_OPTIONS,
 };
 

@@ -15,6 +15,7 @@ static const cli_option options[] = {
   {BOUNDARY, 0, "boundary", NULL, "add the stretches that run in the boundary"},
   {CONTACTS, 0, "contacts", NULL, "add the points where the ray only touches the solid"},
   {JSON, 0, "json", NULL, "print each answer as a JSON object on its line"},
+  CLI_SNAP_OPTION,
   CLI_COMMON_OPTIONS,
 };
 

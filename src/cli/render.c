@@ -22,6 +22,7 @@ static const cli_option options[] = {
   {SAMPLES, 0, "samples", "N", "samples of a pixel at an edge: 4, 9, 16 (the default), 25, ... 256"},
   {NO_SHADOWS, 0, "no-shadows", NULL, "lights cast no shadows"},
   {PROGRESS, 0, "progress", NULL, "show progress if standard error is a terminal"},
+  CLI_SNAP_OPTION,
   CLI_COMMON_OPTIONS,
 };
 

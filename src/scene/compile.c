@@ -4,6 +4,7 @@
 #include "scene/cells.h"
 #include "scene/compile.h"
 #include "scene/rounding.h"
+#include "scene/snap.h"
 
 #include "base/limits.h"
 #include "base/thread.h"
@@ -106,7 +107,7 @@ static quoin_status make_leaves(qn_building *b) {
   quoin_status status = qn_tree_walk(b);
   status = status == QUOIN_OK ? qn_leaves_make(b) : status;
   status = status == QUOIN_OK ? qn_keys_join(b) : status;
-  status = status == QUOIN_OK ? qn_simplify(b, s->min, s->max) : status;
+  status = status == QUOIN_OK && !b->whole ? qn_simplify(b, s->min, s->max) : status;
   status = status == QUOIN_OK ? qn_program_build(&s->program, b->mem, b->terms, b->term_count) : status;
   status = status == QUOIN_OK ? qn_pack(b) : status;
   qn_batches_free(b);
@@ -137,6 +138,48 @@ static quoin_status make(qn_building *b) {
   return status == QUOIN_OK ? qn_tell_progress(b->progress, 1) : status;
 }
 
+/* What only serves the making. Of a scene that was not made, also arrays that still have the room they had grown to. */
+static void drop(qn_building *b, int made) {
+  quoin_scene *s = b->scene;
+  qn_free(b->mem, b->keys, b->key_room * sizeof *b->keys);
+  qn_free(b->mem, b->kinds, b->kind_room);
+  qn_materials_free(b);
+  if (!made) {
+    qn_free(b->mem, s->leaves, b->leaf_room * sizeof *s->leaves);
+    qn_free(b->mem, s->materials, b->material_capacity * sizeof *s->materials);
+    qn_free(b->mem, s->name_text, b->name_capacity);
+    s->leaves = NULL, s->materials = NULL, s->name_text = NULL;
+  }
+}
+
+/* A scene with all leaves, their surfaces and their hierarchy, and nothing more, tells what is to be moved. */
+static quoin_status survey(quoin_model *model, unsigned threads, const quoin_progress *progress, qn_num limit, quoin_scene *into) {
+  quoin_scene *s = qn_alloc_zeroed(&model->mem, sizeof *s);
+  qn_snaps *snaps = qn_alloc_zeroed(&model->mem, sizeof *snaps);
+  if (!s || !snaps) {
+    qn_free(&model->mem, s, sizeof *s);
+    qn_free(&model->mem, snaps, sizeof *snaps);
+    return QUOIN_E_MEMORY;
+  }
+  s->mem = &model->mem;
+  qn_building b = {.model = model, .scene = s, .mem = &model->mem, .threads = threads, .progress = progress, .whole = 1};
+  quoin_status status = make_leaves(&b);
+  status = status == QUOIN_OK ? qn_identify(&b) : status;
+  status = status == QUOIN_OK ? fit_all(&b) : status;
+  status = status == QUOIN_OK ? build_hierarchy(&b) : status;
+  drop(&b, status == QUOIN_OK);
+  qn_model_retain(model);
+  s->model = model;
+  status = status == QUOIN_OK ? qn_snaps_find(s, limit, snaps, &into->snapped) : status;
+  quoin_scene_free(s);
+  if (status != QUOIN_OK) {
+    qn_free(&model->mem, snaps, sizeof *snaps);
+    return status;
+  }
+  into->snaps = snaps;
+  return qn_tell_progress(progress, 1);
+}
+
 QUOIN_API quoin_compile_options quoin_compile_options_default(void) {
   return (quoin_compile_options){0};
 }
@@ -157,17 +200,26 @@ QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compi
   }
   s->mem = &model->mem;
   qn_building b = {.model = model, .scene = s, .mem = &model->mem, .threads = qn_thread_count(options->threads), .progress = &options->progress};
-  quoin_status status = make(&b);
-  qn_free(b.mem, b.keys, b.key_room * sizeof *b.keys);
-  qn_free(b.mem, b.kinds, b.kind_room);
-  qn_materials_free(&b);
-  if (status != QUOIN_OK) { /* some arrays still have the room they had grown to */
-    qn_free(b.mem, s->leaves, b.leaf_room * sizeof *s->leaves);
-    qn_free(b.mem, s->materials, b.material_capacity * sizeof *s->materials);
-    qn_free(b.mem, s->name_text, b.name_capacity);
-    s->leaves = NULL, s->materials = NULL, s->name_text = NULL;
+  stretch parts[2] = {{&options->progress, 0, 0.5}, {&options->progress, 0.5, 1}};
+  quoin_progress first = {report_part, &parts[0]}, second = {report_part, &parts[1]};
+  quoin_status status = QUOIN_OK;
+  if (options->snap) {
+    qn_ctx ctx;
+    qn_num limit = QN_NUM_ZERO;
+    qn_ctx_init(&ctx, &model->mem);
+    status = qn_snap_limit(&ctx, options->snap, &limit);
+    status = status == QUOIN_OK ? survey(model, b.threads, &first, limit, s) : status;
+    qn_ctx_free(&ctx);
+    b.progress = &second;
+  }
+  status = status == QUOIN_OK ? make(&b) : status;
+  drop(&b, status == QUOIN_OK);
+  if (status != QUOIN_OK) {
     quoin_scene_free(s);
     return status;
+  }
+  if (s->snapped) {
+    qn_snaps_tell(model, s->snaps, s->snapped);
   }
   s->bytes = bytes_of(s);
   qn_model_retain(model);
@@ -205,6 +257,11 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   qn_free(mem, s->materials, s->material_count * sizeof *s->materials);
   qn_free(mem, s->part_names, s->leaf_count * sizeof *s->part_names);
   qn_free(mem, s->name_text, s->name_size);
+  quoin_near_free(s->snapped);
+  if (s->snaps) {
+    qn_snaps_free(s->snaps, mem);
+    qn_free(mem, s->snaps, sizeof *s->snaps);
+  }
   qn_free(mem, s, sizeof *s);
   if (model) {
     qn_model_release(model);

@@ -108,6 +108,7 @@ typedef struct qn_building {
   uint32_t key_count;
   uint8_t *kinds; size_t kind_room;  /* by leaf: qn_piece_kind */
   size_t deepest;                    /* levels of the walk */
+  int whole;                         /* leaves that cannot matter are kept: for a survey of surfaces */
 } qn_building;
 #define QN_KEY_FIRST 0x80000000u
 
@@ -137,6 +138,8 @@ typedef struct qn_maker {
   qn_maps maps;
   qn_local local;
   qn_key_table keys; /* of the places of the batch in work */
+  const struct qn_snaps *snaps; /* null: none */
+  qn_maps plain;     /* the identity, for leaves of which something was moved; stack null: not begun */
   qn_batch *batch;
 } qn_maker;
 
@@ -161,6 +164,8 @@ int qn_world_place(qn_maker *m, const qn_num row[4], int axis, qn_num shift, qn_
 QN_NODISCARD quoin_status qn_leaf_add(qn_maker *m, qn_leaf *leaf, qn_form_result *result);
 /* All of that for a leaf of the commonest kind, a sphere that is only shifted, of plain decimals. 0: it is none. */
 int qn_leaf_quick(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_result *result, quoin_status *status);
+/* snap_box.c: all of that for a leaf of which something was moved. */
+QN_NODISCARD quoin_status qn_leaf_snapped(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_result *result);
 /* Room for one more half-space of the batch, and one more quadric. */
 QN_NODISCARD int qn_batch_room(qn_maker *m);
 

@@ -6,6 +6,7 @@
 #include "scene/compile.h"
 
 #include "base/limits.h"
+#include "scene/snap.h"
 
 #include <string.h>
 
@@ -161,8 +162,13 @@ qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t nod
 
 qn_form_result qn_scene_leaf_forms(const quoin_scene *scene, uint32_t leaf, qn_ctx *ctx, qn_half_form **halves, size_t *count) {
   qn_num map[12];
-  qn_path_map(ctx, scene->model, scene->leaves[leaf].node, map);
-  return qn_node_forms(ctx, scene->model, scene->leaves[leaf].node, map, halves, count);
+  uint32_t node = scene->leaves[leaf].node;
+  qn_path_map(ctx, scene->model, node, map);
+  qn_form_result result = qn_node_forms(ctx, scene->model, node, map, halves, count);
+  if (result == QN_FORM_OK && !qn_snaps_apply(ctx, scene->model, scene->snaps, node, *halves, *count)) {
+    result = QN_FORM_EMPTY;
+  }
+  return result;
 }
 
 const qn_exact_surface *qn_scene_publish(const quoin_scene *scene, uint32_t surface, const qn_exact_surface *form, int *made) {

@@ -205,6 +205,8 @@ void qn_leaf_extent(qn_maker *m, qn_leaf *leaf) {
       bound_by_body(m, &m->local.halves[h], leaf);
     }
   }
-  bound_by_corners(m, leaf);
+  if (m->local.node != QN_NO_NODE) { /* else faces were moved, and corners with them */
+    bound_by_corners(m, leaf);
+  }
   qn_arena_release(&ctx->arena, mark);
 }

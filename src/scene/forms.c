@@ -2,6 +2,7 @@
 #include "scene/identity.h"
 
 #include "base/limits.h"
+#include "scene/snap.h"
 
 #include <string.h>
 
@@ -101,7 +102,9 @@ static quoin_status forms_of(qn_forms *f, qn_ctx *ctx, uint32_t leaf, qn_half_fo
   clear(ctx);
   quoin_status status = map_of(f, ctx, node, map);
   if (status == QUOIN_OK) {
-    qn_node_forms(ctx, f->b->model, node, map, forms, &count);
+    if (qn_node_forms(ctx, f->b->model, node, map, forms, &count) == QN_FORM_OK) {
+      qn_snaps_apply(ctx, f->b->model, f->b->scene->snaps, node, *forms, count);
+    }
     status = ctx->failed;
   }
   return status;

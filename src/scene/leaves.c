@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "base/thread.h"
+#include "scene/snap.h"
 
 #include <string.h>
 
@@ -18,6 +19,7 @@ static quoin_status begin(qn_maker *m, qn_building *b) {
   }
   m->model = b->model;
   m->mem = b->mem;
+  m->snaps = b->scene->snaps;
   m->local.node = QN_NO_NODE;
   qn_ctx_init(&m->local.ctx, b->mem);
   m->local.ctx.max_bits = QN_MAX_SCENE_BITS;
@@ -27,6 +29,9 @@ static quoin_status begin(qn_maker *m, qn_building *b) {
 static void end(qn_maker *m) {
   if (m->model) {
     qn_maps_free(&m->maps, m->mem);
+    if (m->plain.stack) {
+      qn_maps_free(&m->plain, m->mem);
+    }
     qn_ctx_free(&m->local.ctx);
     qn_free(m->mem, m->local.rows, m->local.rows_capacity * sizeof *m->local.rows);
     qn_free(m->mem, m->local.args, m->local.args_capacity * sizeof *m->local.args);
@@ -89,6 +94,10 @@ static quoin_status step(qn_maker *m, uint32_t *node) {
 
 static quoin_status make_leaf(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_result *result) {
   quoin_status status = QUOIN_OK;
+  const qn_snap *first;
+  if (qn_snaps_of(m->snaps, node, &first)) {
+    return qn_leaf_snapped(m, node, leaf, result);
+  }
   if (qn_leaf_quick(m, node, leaf, result, &status)) {
     return status;
   }

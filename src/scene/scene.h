@@ -76,6 +76,8 @@ struct quoin_scene {
   int empty;
   double min[3], max[3];          /* of the solid */
   size_t bytes;                   /* what the arrays above take */
+  struct qn_snaps *snaps;         /* null: nothing was snapped */
+  quoin_near_list *snapped;       /* what is told of it; null: not asked for */
 };
 
 /* The exact form of a surface, made on first use; then *made (may be null) is set to 1, else to 0. Null when memory is refused, or its numbers pass

@@ -20,7 +20,7 @@ class Check(Case):
     def test_summary(self):
         s = self.summary("translate([1, 2, 3]) cube([4, 5, 6]);")
         self.holds([float(x) for x in s.pop("box").split()], [1, 2, 3, 5, 7, 9])
-        self.assertEqual(s, {"leaves": "1", "surfaces": "6", "distinct_surfaces": "6", "extent": "bounded"})
+        self.assertEqual(s, {"leaves": "1", "surfaces": "6", "distinct_surfaces": "6", "extent": "bounded", "near_pairs": "0"})
 
     def test_shared_surfaces(self):
         s = self.summary("cube(1); translate([1, 0, 0]) cube(1);")  # y and z faces in common, and the one between them
