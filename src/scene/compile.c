@@ -81,7 +81,7 @@ static size_t bytes_of(const quoin_scene *s) {
   return sizeof *s + s->leaf_count * (sizeof *s->leaves + sizeof *s->part_names + sizeof *s->line_of) + s->half_count * sizeof *s->halves +
          s->plane_count * sizeof *s->planes + s->quadric_count * sizeof *s->quadrics + s->surface_count * sizeof *s->surfaces +
          s->program.gate_count * sizeof *s->program.gates + qn_paths_bytes(s->program.paths) + hierarchy + s->unbounded_count * sizeof *s->unbounded +
-         s->material_count * sizeof *s->materials + s->name_size + qn_normal_bytes(&s->normal) + s->line_count * 64;
+         s->material_count * sizeof *s->materials + s->name_size + qn_normal_bytes(&s->normal) + s->line_count * 64 + s->plain_count * sizeof *s->plain;
 }
 
 quoin_status qn_tell_progress(const quoin_progress *progress, double done) {
@@ -253,6 +253,7 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
     qn_cells_free(atomic_load_explicit(s->cells, memory_order_relaxed), mem);
     qn_free(mem, s->cells, sizeof *s->cells);
   }
+  qn_free(mem, s->plain, s->plain_count * sizeof *s->plain);
   qn_free(mem, s->unbounded, s->unbounded_count * sizeof *s->unbounded);
   qn_free(mem, s->materials, s->material_count * sizeof *s->materials);
   qn_free(mem, s->part_names, s->leaf_count * sizeof *s->part_names);

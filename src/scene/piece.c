@@ -209,6 +209,18 @@ static quoin_status fill(void *user, unsigned thread, size_t i) {
   return QUOIN_OK;
 }
 
+static quoin_status find_plain(void *user, unsigned thread, size_t i) {
+  (void)thread;
+  quoin_scene *s = user;
+  const qn_normal *n = &s->normal;
+  size_t end = (i + 1) * STRETCH < s->plain_count ? (i + 1) * STRETCH : s->plain_count;
+  for (size_t k = i * STRETCH; k < end; k++) {
+    const qn_nterm *t = &n->terms[k];
+    s->plain[k] = t->leaves == 1 && !t->minus && !t->plus ? s->line_of[n->leaves[t->leaf0]] : UINT32_MAX;
+  }
+  return QUOIN_OK;
+}
+
 quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem, const uint8_t *kinds, unsigned threads) {
   const qn_normal *n = &scene->normal;
   scene->line_of = qn_alloc(mem, scene->leaf_count * sizeof *scene->line_of);
@@ -238,6 +250,12 @@ quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem, const uint8_t *kin
   if (!scene->lines) {
     return QUOIN_E_MEMORY;
   }
+  scene->plain = qn_alloc(mem, n->term_count * sizeof *scene->plain);
+  if (!scene->plain) {
+    return QUOIN_E_MEMORY;
+  }
+  scene->plain_count = n->term_count;
   filling f = {scene, kinds};
-  return qn_parallel(threads, (scene->leaf_count + STRETCH - 1) / STRETCH, fill, &f, NULL);
+  quoin_status status = qn_parallel(threads, (scene->leaf_count + STRETCH - 1) / STRETCH, fill, &f, NULL);
+  return status == QUOIN_OK ? qn_parallel(threads, (n->term_count + STRETCH - 1) / STRETCH, find_plain, scene, NULL) : status;
 }

@@ -70,6 +70,7 @@ struct quoin_scene {
   void *lines; size_t line_count; /* pieces, in cache lines */
   uint32_t *line_of;              /* by leaf: its piece's first line */
   _Atomic(struct qn_cells *) *cells; /* null until asked for: scene/cells.h */
+  uint32_t *plain; size_t plain_count; /* by term of the normal form: its piece's first line where it is one leaf and no more; else UINT32_MAX */
   qn_material *materials; size_t material_count; /* all parts filled in; 0 is the default material */
   uint32_t *part_names; /* by leaf: offset in name_text */
   char *name_text; size_t name_size;

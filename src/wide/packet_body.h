@@ -86,12 +86,10 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
   } else {
     piece_prepare(w, head, &k);
   }
-  for (int g = 0; g < QN_GROUPS; g++) {
-    unsigned in = (unsigned)(mask >> (g * QN_W)) & QN_ALL_BITS;
-    if (!in) {
-      continue;
-    }
-    int o = g * QN_W;
+  while (mask) { /* group by group */
+    const int g = (int)(qn_trailing_zeros(mask) / QN_W), o = g * QN_W;
+    const unsigned in = (unsigned)(mask >> o) & QN_ALL_BITS;
+    mask &= ~((uint64_t)QN_ALL_BITS << o);
     w->counts.leaves++;
     stretch s = kind == QN_PIECE_SPHERE ? sphere_solve(&w->f, &k.sphere, g) : kind == QN_PIECE_BOX ? box_solve(&w->f, &k.box, g) : piece_solve(w, head, &k, g);
     w->unsure |= (uint64_t)(vbits(s.unsure) & in) << o;
@@ -122,14 +120,20 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
   }
 }
 
+/* Whether the piece alone says where it is entered. */
+QN_INLINE int piece_enter(walk *w, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+  switch ((qn_piece_kind)head->kind) {
+  case QN_PIECE_SPHERE: leaf_enter(w, QN_PIECE_SPHERE, head, from, mask & ~w->unsure, best, found); return 1;
+  case QN_PIECE_BOX: leaf_enter(w, QN_PIECE_BOX, head, from, mask & ~w->unsure, best, found); return 1;
+  case QN_PIECE_ROUND: case QN_PIECE_MEET: case QN_PIECE_HARD: break;
+  }
+  return 0;
+}
+
 static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
-  if (t->leaves == 1 && !t->minus && !t->plus) {
-    const qn_piece_head *head = piece_at(w, w->normal->leaves[t->leaf0]);
-    switch ((qn_piece_kind)head->kind) {
-    case QN_PIECE_SPHERE: leaf_enter(w, QN_PIECE_SPHERE, head, from, mask & ~w->unsure, best, found); return;
-    case QN_PIECE_BOX: leaf_enter(w, QN_PIECE_BOX, head, from, mask & ~w->unsure, best, found); return;
-    case QN_PIECE_ROUND: case QN_PIECE_MEET: case QN_PIECE_HARD: break;
-    }
+  const uint32_t line = w->scene->plain[t - w->normal->terms];
+  if (line != UINT32_MAX && piece_enter(w, piece_in(w, line), from, mask, best, found)) {
+    return;
   }
   ends e;
   mask = term_solve(w, t, mask & ~w->unsure, &e);
@@ -257,17 +261,25 @@ static float earliest(const walk *w, const lanes *at, uint64_t mask) {
   return first;
 }
 
-typedef struct waiting { float near; uint32_t node; } waiting;
+typedef struct waiting { float near; uint32_t node, parent, slot; } waiting; /* node: or QN_BVH_LEAF | term */
 
-/* Farthest first, so that the nearest is taken next. */
-QN_INLINE int push_children(const qn_bvh_node *n, unsigned meets, const float near[8], waiting *stack, int top) {
+/* Farthest first, so that the nearest is taken next. What is needed of each is fetched already. */
+QN_INLINE int push_children(const walk *w, uint32_t node, unsigned meets, const float near[8], waiting *stack, int top) {
+  const qn_bvh_node *n = &w->normal->nodes[node];
   for (const int first = top; meets; meets &= meets - 1) {
     unsigned c = qn_trailing_zeros(meets);
     int j = top++;
     for (; j > first && stack[j - 1].near < near[c]; j--) {
       stack[j] = stack[j - 1];
     }
-    stack[j].near = near[c], stack[j].node = n->child[c];
+    const uint32_t child = n->child[c];
+    stack[j] = (waiting){near[c], child, node, c};
+    if (child & QN_BVH_LEAF) {
+      const uint32_t line = w->scene->plain[child & ~QN_BVH_LEAF];
+      line != UINT32_MAX ? QN_FETCH(piece_in(w, line)) : QN_FETCH(&w->normal->terms[child & ~QN_BVH_LEAF]);
+    } else {
+      QN_FETCH(&w->normal->nodes[child]), QN_FETCH(w->normal->nodes[child].max), QN_FETCH(&w->normal->nodes[child].max[2]);
+    }
   }
   return top;
 }
@@ -284,28 +296,32 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
     return better & ~w->unsure;
   }
   waiting stack[STACK];
-  int top = push_children(&w->normal->nodes[un->root], meets, near, stack, 0);
-  for (;;) {
+  int top = push_children(w, un->root, meets, near, stack, 0);
+  for (int stale = 0;;) { /* stale: `end` is from before a place was found */
     if (better) {
       found |= better;
       mask &= any ? ~better : ~(uint64_t)0;
-      better = 0;
+      better = 0, stale = 1;
       if (!mask) {
         return found & ~w->unsure;
       }
-      end = latest(w, best, mask & ~w->unsure);
     }
     do {
       if (!top) {
         return found & ~w->unsure;
       }
     } while (stack[--top].near > end);
+    if (stale && (QN_LANES_NOW == 1 || !(stack[top].node & QN_BVH_LEAF))) { /* of many lanes, as much work as a leaf: worth it for nodes only */
+      end = latest(w, best, mask & ~w->unsure), stale = 0;
+      if (stack[top].near > end) {
+        continue;
+      }
+    }
     uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
-      const qn_nterm *t = &terms[at & ~QN_BVH_LEAF];
-      uint64_t in = subs_meet(w, t) & mask & ~w->unsure;
+      uint64_t in = subs_meet_child(w, &w->normal->nodes[stack[top].parent], stack[top].slot) & mask & ~w->unsure;
       if (in) {
-        term_enter(w, t, from, in, best, &better);
+        term_enter(w, &terms[at & ~QN_BVH_LEAF], from, in, best, &better);
         if (!top) {
           return (found | better) & ~w->unsure;
         }
@@ -315,7 +331,7 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
     const qn_bvh_node *n = &w->normal->nodes[at];
     w->counts.nodes++;
     meets = node_meets(w, n, start, end, near);
-    top = push_children(n, meets, near, stack, top);
+    top = push_children(w, at, meets, near, stack, top);
   }
 }
 

@@ -9,16 +9,6 @@
 
 _Static_assert(QN_SPAN_LARGER == QN_LARGER_ROOT && QN_SPAN_LEAF == QN_LEAF_BITS, "packet.h tells what payloads are");
 
-/* The sub-packets that may meet the box of a node's child, as lanes. */
-QN_INLINE uint64_t subs_meet_child(const walk *w, const qn_bvh_node *n, unsigned child) {
-  vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
-  for (int i = 0; i < 3; i++) {
-    bmin[i] = fset(n->min[i][child]), bmax[i] = fset(n->max[i][child]);
-    omin[i] = fload(w->f.p->omin[i]), omax[i] = fload(w->f.p->omax[i]), imin[i] = fload(w->f.p->imin[i]), imax[i] = fload(w->f.p->imax[i]);
-  }
-  return eights(slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when));
-}
-
 QN_INLINE void leaf_spans_of(walk *w, qn_piece_kind kind, const qn_piece_head *head, uint64_t mask, qn_packet_spans *out) {
   piece_constants k;
   if (kind == QN_PIECE_SPHERE) {

@@ -18,6 +18,9 @@ typedef union piece_constants {
   meet_constants meet;
 } piece_constants;
 
+QN_INLINE const qn_piece_head *piece_in(const walk *w, uint32_t line) {
+  return (const qn_piece_head *)(const void *)((const char *)w->scene->lines + (size_t)line * 64);
+}
 static const qn_piece_head *piece_at(const walk *w, uint32_t leaf) {
   return (const qn_piece_head *)(const void *)((const char *)w->scene->lines + (size_t)w->scene->line_of[leaf] * 64);
 }

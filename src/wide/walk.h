@@ -174,18 +174,17 @@ QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, 
   return meets;
 }
 
-/* The sub-packets that may meet a term's box, as lanes. */
-QN_INLINE uint64_t subs_meet(const walk *w, const qn_nterm *t) {
+/* The sub-packets that may meet the box of a node's child, as lanes. */
+QN_INLINE uint64_t subs_meet_child(const walk *w, const qn_bvh_node *n, unsigned slot) {
   if (SUBS == 1) {
-    return 1; /* the box of the node above was the same */
+    return 1; /* the node was tested for the same lane */
   }
   vf8 bmin[3], bmax[3], omin[3], omax[3], imin[3], imax[3], when;
   for (int i = 0; i < 3; i++) {
-    bmin[i] = fset(t->min[i]), bmax[i] = fset(t->max[i]);
+    bmin[i] = fset(n->min[i][slot]), bmax[i] = fset(n->max[i][slot]);
     omin[i] = fload(w->f.p->omin[i]), omax[i] = fload(w->f.p->omax[i]), imin[i] = fload(w->f.p->imin[i]), imax[i] = fload(w->f.p->imax[i]);
   }
-  unsigned meets = slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when);
-  return eights(meets);
+  return eights(slabs(w->f.p->axis, bmin, bmax, omin, omax, imin, imax, fset(-INFINITY), fset(INFINITY), &when));
 }
 
 #endif
