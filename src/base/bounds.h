@@ -137,6 +137,15 @@
 #define QN_FLOAT_STEP 0x1p-22f
 #define QN_FLOAT_TINY 0x1p-126f
 
+/* Near surfaces (scene/near_item.c), from shadows. A unit normal's components are within QN_NEAR_NORMAL. Unit rows with a determinant above QN_NEAR_FLAT,
+   and forms whose terms are not more than 1/QN_NEAR_FLAT times their quadratic part, are looked at; of a plane's offset, and of a centre where no
+   entry of the rows' inverse is 2 or more, the error is QN_NEAR_PLACE and 4 QN_NEAR_PLACE of the terms' magnitudes, else of a centre 1/QN_NEAR_FLAT times that. f of a
+   quadratic part is within QN_NEAR_SHAPE. */
+#define QN_NEAR_NORMAL 0x1p-46
+#define QN_NEAR_PLACE 0x1p-40
+#define QN_NEAR_FLAT 0x1p-16
+#define QN_NEAR_SHAPE 0x1p-24
+
 /* Rounding places in wide code (src/wide/newton.h, scene/rounding.h). Legend: y = o - c + t d with c the surface's pivot; over the
    coordinates that occur, S = sum |o_j - c_j| + |t d_j|, D = sum |d_j|; K2, K1, K0 the surface's SQUARE, LINEAR and CONSTANT; a = q2(d).
      |p^(t) - p(t)| <= QN_ROUND_EVAL (K2 S^2 + K1 S + K0) + u |p^|,  |p'^ - p'| <= QN_ROUND_SLOPE D (2 K2 S + K1),  |a| <= K2 D^2

@@ -1,0 +1,258 @@
+/* What doubles know of surfaces: where they are used, their place and direction with a bound of its error, how wide a search they ask for, and
+   their order. */
+#include "scene/near_parts.h"
+
+#include "scene/compile.h"
+#include "scene/fingerprint.h"
+
+#include <string.h>
+
+/* --- what doubles know of a surface ---------------------------------------------------------------------------------- */
+
+static void look_at_plane(const qn_near_finder *f, const qn_leaf *leaf, const qn_plane_shadow *p, qn_near_item *it) {
+  double length = sqrt(p->n[0] * p->n[0] + p->n[1] * p->n[1] + p->n[2] * p->n[2]), d = p->d, size = fabs(p->d);
+  for (int k = 0; k < 3; k++) {
+    double term = p->n[k] * (leaf->pivot[k] - f->origin[k]);
+    d -= term;
+    size += fabs(term);
+    it->n[k] = p->n[k] / length;
+  }
+  it->d = d / length;
+  it->error = QN_NEAR_PLACE * size / length;
+  it->kind = isfinite(it->error) && length > 0x1p-400 && length < 0x1p400 ? QN_NEAR_PLANE : QN_NEAR_NOT;
+}
+
+/* Columns of the inverse of the rows' 3x3 part; 0 where rows are too nearly dependent for doubles. */
+static int invert(double row[3][4], double inverse[3][3]) {
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < 3; i++) {
+      int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, d = (k + 2) % 3;
+      inverse[k][i] = row[a][c] * row[b][d] - row[a][d] * row[b][c];
+    }
+  }
+  double det = 0;
+  for (int k = 0; k < 3; k++) {
+    det += row[0][k] * inverse[k][0];
+  }
+  for (int i = 0; i < 9; i++) {
+    inverse[i / 3][i % 3] /= det;
+  }
+  return fabs(det) > QN_NEAR_FLAT; /* of unit rows */
+}
+
+static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_quadric_shadow *q, qn_near_item *it) {
+  static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  static const double weight[6] = {0.7548776662466927, 0.5698402909980532, 0.8191725133961644, 0.6710436067037893, 0.5497004779019703, 0.9318321442141524};
+  double row[3][4], s[3], inverse[3][3], X[3] = {0, 0, 0}, l = q->l;
+  it->kind = QN_NEAR_NOT;
+  for (int i = 0; i < 3; i++) {
+    const double *r = q->row[i];
+    double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    if (!(length > 0x1p-200 && length < 0x1p200)) {
+      return;
+    }
+    for (int j = 0; j < 4; j++) {
+      row[i][j] = r[j] / length;
+    }
+    s[i] = q->s[i] * length * length;
+    l = i == 2 ? q->l * length : l;
+  }
+  if (!invert(row, inverse) || s[0] == 0 || s[1] == 0) {
+    return;
+  }
+  X[2] = s[2] != 0 ? -l / s[2] : l != 0 ? -q->k / (2 * l) : 0;
+  double size = 0, along = 0, w2 = 0;
+  for (int k = 0; k < 3; k++) {
+    double at = leaf->pivot[k] - f->origin[k];
+    size += fabs(at);
+    for (int i = 0; i < 3; i++) {
+      double term = inverse[k][i] * (X[i] - row[i][3]);
+      at += term;
+      size += fabs(inverse[k][i]) * (fabs(X[i]) + fabs(row[i][3]));
+    }
+    it->n[k] = at;
+    along += at * inverse[k][2];
+    w2 += inverse[k][2] * inverse[k][2];
+  }
+  if (s[2] == 0 && l == 0) { /* of the axis, the place nearest to O */
+    for (int k = 0; k < 3; k++) {
+      it->n[k] -= along / w2 * inverse[k][2];
+    }
+  }
+  double most = 0;
+  for (int i = 0; i < 9; i++) {
+    most = fmax(most, fabs(inverse[i / 3][i % 3]));
+  }
+  it->error = 4 * QN_NEAR_PLACE * (most < 2 ? 1 : 1 / QN_NEAR_FLAT) * size; /* below 2: rows nearly orthogonal, the usual thing */
+  double A2 = 0, wA = 0, magnitude = 0;
+  for (int c = 0; c < 6; c++) {
+    double a = 0;
+    for (int i = 0; i < 3; i++) {
+      double term = s[i] * row[i][pair[c][0]] * row[i][pair[c][1]] * (c < 3 ? 1 : 2);
+      a += term;
+      magnitude += fabs(term);
+    }
+    A2 += a * a;
+    wA += weight[c] * a;
+  }
+  it->d = wA * wA / A2;
+  if (isfinite(it->error) && isfinite(it->d) && QN_NEAR_FLAT * magnitude < sqrt(A2)) {
+    it->kind = QN_NEAR_CURVED;
+  }
+}
+
+/* To 20 bits: boxes are rounded, and parts of one size should count as that. */
+static double rounded_size(double size) {
+  int e;
+  double m = frexp(size, &e);
+  return isfinite(size) ? ldexp(nearbyint(ldexp(m, 20)), e - 20) : size;
+}
+
+static void look_at(const qn_near_finder *f, uint32_t i, qn_near_item *it) {
+  const quoin_scene *s = f->scene;
+  const qn_surface *surface = &s->surfaces[i];
+  const qn_leaf *leaf = &s->leaves[surface->leaf];
+  const qn_half *half = &s->halves[surface->half];
+  if (surface->kind == QN_PLANE) {
+    look_at_plane(f, leaf, &s->planes[half->shadow], it);
+  } else if (surface->kind == QN_QUADRIC_BODY) {
+    look_at_body(f, leaf, &s->quadrics[half->shadow], it);
+  }
+  it->size = 0;
+  for (int k = 0; k < 3; k++) {
+    it->size += it->region.max[k] - it->region.min[k];
+  }
+  it->size = it->size >= 0 ? rounded_size(it->size) : INFINITY;
+}
+
+/* The greatest angle (as a distance of unit normals) at which another plane can be near this one. */
+double qn_near_angle(const qn_near_finder *f, const qn_near_item *it) {
+  double least = INFINITY;
+  for (int k = 0; k < 3; k++) {
+    least = fmin(least, qn_near_half_extent(&it->region, k));
+  }
+  double angle = 4 * QN_NEAR_NORMAL + (isfinite(least) && isfinite(it->size) ? 2 * (f->most + it->error) / least : 0), widest = ldexp(1, -QN_NEAR_ANGLE / 2 + 1);
+  return angle < widest ? angle : widest; /* also when it is not a number */
+}
+double qn_near_direction_cell(int level) {
+  return ldexp(1, 2 - QN_NEAR_ANGLE / 2 - 3 * level); /* twice the widest angle, then finer */
+}
+static uint8_t level_of(const qn_near_finder *f, const qn_near_item *it) {
+  double angle = qn_near_angle(f, it);
+  int level = 0;
+  while (level + 1 < QN_NEAR_LEVELS && qn_near_direction_cell(level + 1) >= 2 * (angle + 2 * QN_NEAR_GROUP_CELL)) {
+    level++;
+  }
+  return (uint8_t)level;
+}
+
+int qn_near_order(const qn_near_finder *f, uint32_t x, uint32_t y) {
+  const qn_near_item *items = f->items;
+  return items[x].size != items[y].size ? (items[x].size < items[y].size) - (items[x].size > items[y].size) : (x > y) - (x < y);
+}
+
+/* Merge sort: qsort takes no context. */
+static int sort_order(qn_near_finder *f, size_t n) {
+  uint32_t *other = qn_alloc(f->mem, n * sizeof *other), *from = f->order, *to = other;
+  if (!other) {
+    return 0;
+  }
+  for (size_t width = 1; width < n; width *= 2) {
+    for (size_t i = 0; i < n; i += 2 * width) {
+      size_t a = i, a_end = i + width < n ? i + width : n, b = a_end, b_end = i + 2 * width < n ? i + 2 * width : n;
+      for (size_t k = i; k < b_end; k++) {
+        to[k] = a < a_end && (b == b_end || qn_near_order(f, from[a], from[b]) <= 0) ? from[a++] : from[b++];
+      }
+    }
+    uint32_t *swap = from;
+    from = to;
+    to = swap;
+  }
+  if (from != f->order) {
+    memcpy(f->order, from, n * sizeof *from);
+  }
+  qn_free(f->mem, other, n * sizeof *other);
+  return 1;
+}
+
+double qn_near_centre_cell(const qn_near_finder *f, int level) {
+  return ldexp(f->centre_cell, 4 * level);
+}
+static void gather_regions(qn_near_finder *f) {
+  const quoin_scene *s = f->scene;
+  for (size_t i = 0; i < s->surface_count; i++) {
+    f->items[i].region = (qn_region){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  }
+  for (size_t i = 0; i < s->leaf_count; i++) {
+    const qn_leaf *leaf = &s->leaves[i];
+    for (uint32_t h = leaf->half0; h < leaf->half0 + leaf->halves; h++) {
+      qn_region *r = &f->items[s->halves[h].surface].region;
+      for (int k = 0; k < 3; k++) {
+        r->min[k] = leaf->min[k] < r->min[k] ? leaf->min[k] : r->min[k];
+        r->max[k] = leaf->max[k] > r->max[k] ? leaf->max[k] : r->max[k];
+      }
+    }
+  }
+}
+
+static int gather_users(qn_near_finder *f) {
+  const quoin_scene *s = f->scene;
+  f->users = qn_alloc(f->mem, s->half_count * sizeof *f->users);
+  f->users_of = qn_alloc_zeroed(f->mem, (s->surface_count + 1) * sizeof *f->users_of);
+  if (!f->users || !f->users_of) {
+    return 0;
+  }
+  for (uint32_t i = 0, n = 0; i < s->surface_count; i++) { /* first where they begin, and then, each moved on by its users, where they end */
+    f->users_of[i] = n;
+    n += s->surfaces[i].users;
+  }
+  for (uint32_t i = 0; i < s->leaf_count; i++) {
+    for (uint32_t h = s->leaves[i].half0; h < s->leaves[i].half0 + s->leaves[i].halves; h++) {
+      f->users[f->users_of[s->halves[h].surface]++] = i;
+    }
+  }
+  memmove(f->users_of + 1, f->users_of, s->surface_count * sizeof *f->users_of);
+  f->users_of[0] = 0;
+  return 1;
+}
+
+quoin_status qn_near_items_make(qn_near_finder *f) {
+  size_t n = f->scene->surface_count;
+  qn_print_frame frame;
+  qn_print_frame_of(f->scene, &frame);
+  memcpy(f->origin, frame.origin, sizeof f->origin);
+  double unit = f->unit = ldexp(1, frame.scale);
+  f->most = nextafter(qn_num_to_double(f->limit), INFINITY);
+  f->offset_cell = 2 * f->most + 0x1p-36 * unit;
+  f->centre_cell = 4 * f->most + 0x1p-34 * unit;
+  f->items = qn_alloc_zeroed(f->mem, n * sizeof *f->items);
+  f->order = qn_alloc(f->mem, n * sizeof *f->order);
+  f->next_in_group = qn_alloc(f->mem, n * sizeof *f->next_in_group);
+  if (!f->items || !f->order || !f->next_in_group) {
+    return QUOIN_E_MEMORY;
+  }
+  gather_regions(f);
+  if (!gather_users(f)) {
+    return QUOIN_E_MEMORY;
+  }
+  for (uint32_t i = 0; i < n; i++) {
+    qn_near_item *it = &f->items[i];
+    look_at(f, i, it);
+    f->order[i] = i;
+    if (it->kind == QN_NEAR_PLANE) {
+      it->level = level_of(f, it);
+      f->levels |= 1u << it->level | 1u << (QN_NEAR_LEVELS - 1);
+      f->plane_error = fmax(f->plane_error, it->error);
+    } else if (it->kind == QN_NEAR_CURVED) {
+      while (it->level + 1 < QN_NEAR_CENTRE_LEVELS && it->error > qn_near_centre_cell(f, it->level) / 16) {
+        it->level++;
+      }
+      if (it->error > qn_near_centre_cell(f, it->level) / 16) {
+        it->kind = QN_NEAR_NOT;
+        continue;
+      }
+      f->centre_levels |= 1u << it->level;
+    }
+  }
+  return sort_order(f, n) ? QUOIN_OK : QUOIN_E_MEMORY;
+}
