@@ -23,7 +23,7 @@
 #include <string.h>
 
 /* How many candidates are compared before the search for all pairs is cut, and how many pairs are kept. A search for a snap is never cut. */
-enum { COMPARED = 1 << 26, KEPT = 1 << 20, COMPARED_USERS = 4096 };
+enum { COMPARED = 1 << 26, KEPT = 1 << 18, COMPARED_USERS = 4096 };
 /* --- one surface ----------------------------------------------------------------------------------------------------- */
 
 /* Users of the two whose boxes come close; where there are very many, their hulls answer. */
@@ -87,7 +87,7 @@ static quoin_status compare(qn_near_finder *f, uint32_t i, int *stands) {
   if (f->found_count > 1) {
     qsort(f->found, f->found_count, sizeof *f->found, by_number);
   }
-  for (size_t k = 0; k < f->found_count && status == QUOIN_OK; k++) {
+  for (size_t k = 0; k < f->found_count && status == QUOIN_OK && !f->out->cut; k++) {
     uint32_t other = f->found[k], leaf[2] = {f->scene->surfaces[i].leaf, f->scene->surfaces[other].leaf};
     if ((k && other == f->found[k - 1]) || (f->want == QN_NEAR_ALL && !users_close(f, i, other, leaf))) {
       continue;
@@ -123,7 +123,7 @@ static quoin_status take(qn_near_finder *f, uint32_t i) {
   }
   f->found_count = 0;
   int good = 1;
-  if (f->want == QN_NEAR_ALL && f->compared > COMPARED) {
+  if (f->want == QN_NEAR_ALL && (f->out->cut || f->compared > COMPARED)) {
     f->out->cut = 1;
     return QUOIN_OK;
   }

@@ -140,6 +140,97 @@ static void bad_limits(void **unused) {
   }
 }
 
+/* --- refusals -------------------------------------------------------------------------------------------------------- */
+
+typedef struct meter { size_t left, blocks; } meter; /* allocations still granted */
+
+static void *grant(void *user, size_t size) {
+  meter *m = user;
+  if (m->left == 0) {
+    return NULL;
+  }
+  m->left--;
+  m->blocks++;
+  return malloc(size);
+}
+static void *regrant(void *user, void *block, size_t old_size, size_t size) {
+  (void)old_size;
+  meter *m = user;
+  if (m->left == 0) {
+    return NULL;
+  }
+  m->left--;
+  return realloc(block, size);
+}
+static void give_back(void *user, void *block, size_t size) {
+  (void)size;
+  ((meter *)user)->blocks--;
+  free(block);
+}
+
+static const char *const SEVERAL = "cube(3); translate([3.0000001,0,0]) cube(2); sphere(1); translate([0,0,1e-7]) sphere(1); rotate([0,0,1e-6]) cylinder(h=3.0000001,r=1); cube([2,2,1e-8]);";
+
+static void memory_refused(void **unused) {
+  (void)unused;
+  size_t refusals = 0;
+  for (size_t n = 0, done = 0; !done; n++) {
+    meter all = {SIZE_MAX, 0};
+    quoin_allocator a = {.alloc = grant, .resize = regrant, .release = give_back, .user = &all};
+    quoin_model *m;
+    quoin_scene *s = NULL;
+    quoin_near_list *list = NULL;
+    quoin_compile_options options = quoin_compile_options_default();
+    options.snap = "1e-6";
+    options.threads = 1;
+    assert_int_equal(quoin_model_new(&a, &m), QUOIN_OK);
+    assert_int_equal(quoin_model_read_text(m, QUOIN_ROOT, "t", SEVERAL, strlen(SEVERAL), NULL), QUOIN_OK);
+    all.left = n;
+    quoin_status status = quoin_scene_compile(m, &options, &s);
+    if (status == QUOIN_OK) {
+      assert_int_equal(quoin_near_count(quoin_scene_snapped(s)), 4); /* a side, a sphere, a cap, a film */
+      status = quoin_near_find(s, "0.1", &list);
+      done = status == QUOIN_OK;
+    } else {
+      assert_null(s);
+    }
+    assert_true(done || status == QUOIN_E_MEMORY);
+    refusals += !done;
+    quoin_near_free(list);
+    quoin_scene_free(s);
+    quoin_model_free(m);
+    assert_int_equal(all.blocks, 0);
+  }
+  assert_true(refusals > 100);
+}
+
+typedef struct stop { int calls, at; double last; } stop;
+static int count_calls(void *user, double done) {
+  stop *s = user;
+  assert_true(done >= s->last && done <= 1);
+  s->last = done;
+  return s->calls++ == s->at;
+}
+
+static void stopped(void **unused) {
+  (void)unused;
+  quoin_status status = QUOIN_E_CANCELLED;
+  for (int at = 0; status != QUOIN_OK; at++) {
+    quoin_model *m;
+    quoin_scene *s = NULL;
+    stop when = {0, at, 0};
+    quoin_compile_options options = quoin_compile_options_default();
+    options.snap = "1e-6";
+    options.progress = (quoin_progress){count_calls, &when};
+    assert_int_equal(quoin_model_new(NULL, &m), QUOIN_OK);
+    assert_int_equal(quoin_model_read_text(m, QUOIN_ROOT, "t", SEVERAL, strlen(SEVERAL), NULL), QUOIN_OK);
+    status = quoin_scene_compile(m, &options, &s);
+    assert_true(status == QUOIN_OK || status == QUOIN_E_CANCELLED);
+    assert_true(status == QUOIN_E_CANCELLED || (at > 3 && when.last == 1));
+    quoin_scene_free(s);
+    quoin_model_free(m);
+  }
+}
+
 /* --- the property, on boxes, judged in rationals --------------------------------------------------------------------- */
 
 static uint64_t state;
@@ -374,6 +465,7 @@ static void property_of_round_solids(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(gaps_by_hand), cmocka_unit_test(where_surfaces_go), cmocka_unit_test(bad_limits),
+                                     cmocka_unit_test(memory_refused), cmocka_unit_test(stopped),
                                      cmocka_unit_test(property_of_boxes), cmocka_unit_test(property_of_round_solids)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
