@@ -153,7 +153,7 @@ static void say_nothing_seen(const job *j, const quoin_scene *scene, const char 
   quoin_scene_get_info(scene, &info);
   const char *elsewhere = j->options.has_camera ? "look from elsewhere, or leave --camera out" : "look from elsewhere with --camera";
   cli_say_diag(&(quoin_diag){.severity = QUOIN_WARNING,
-                             .code = "Q1101",
+                             .code = "Q1006",
                              .file = path,
                              .problem = "nothing is in view",
                              .reason = info.empty ? "the solid is empty" : "no ray of the camera meets the solid",

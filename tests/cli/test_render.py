@@ -117,7 +117,7 @@ class Pictures(Case):
             r = run("render", model, "-o", out, "--imgsize", "20,10", *args)
             self.assertEqual((r.code, r.out), (0, ""), r)
             self.assertEqual(len(r.err.splitlines()), 1, r)
-            for word in [str(model) + ": warning: nothing is in view (", "[Q1101]"] + words:
+            for word in [str(model) + ": warning: nothing is in view (", "[Q1006]"] + words:
                 self.assertIn(word, r.err)
             w, h, rows = decode(out.read_bytes())
             self.assertEqual((w, h), (20, 10))
