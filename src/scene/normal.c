@@ -8,9 +8,10 @@
 /* --- a union of leaves ------------------------------------------------------------------------------------------------ */
 
 /* The commonest scene: a union of leaves, and the hierarchy over them is there already. */
-static int is_leaf_union(const qn_drawing *m) {
-  const quoin_scene *s = m->scene;
-  return m->gates == 1 && s->leaf_count > 0 && s->bvh.item_count + s->unbounded_count == s->leaf_count && s->bvh.node_count && m->joins[0];
+static int is_leaf_union(const quoin_scene *s) {
+  const qn_gate *root = &s->program.gates[0]; /* every leaf is its child; base counts the negated ones; a meet of these is a union's complement */
+  return s->program.gate_count == 1 && root->base == (root->is_and ? root->kids : 0) && s->leaf_count > 0 && s->bvh.node_count &&
+         s->bvh.item_count + s->unbounded_count == s->leaf_count;
 }
 
 enum { STRETCH = 1024 }; /* nodes a thread takes at once */
@@ -95,13 +96,12 @@ quoin_status qn_normal_build(qn_normal *normal, const struct quoin_scene *scene,
 quoin_status qn_normal_build_within(qn_normal *normal, const struct quoin_scene *scene, qn_mem *mem, unsigned threads, size_t budget) {
   *normal = (qn_normal){0};
   qn_drawing m = {.scene = scene, .mem = mem, .n = normal, .threads = threads, .gates = scene->program.gate_count, .budget = budget};
-  if (qn_sets_read(&m)) {
+  if (is_leaf_union(scene)) {
+    normal->complement = scene->program.gates[0].is_and;
+    m.status = leaf_union(&m);
+  } else if (qn_sets_read(&m)) {
     normal->complement = m.truth[0];
-    if (is_leaf_union(&m)) {
-      m.status = leaf_union(&m);
-    } else {
-      from_root(&m);
-    }
+    from_root(&m);
   }
   qn_sets_free(&m);
   qn_free(mem, m.drafts, m.draft_capacity * sizeof *m.drafts);

@@ -30,6 +30,7 @@ static int add_term(qn_drawing *m, const qn_draft *d) {
 
 /* A hierarchy of few terms is one node. */
 static void one_node(qn_bvh_node *node, const qn_nterm *terms, uint32_t term0, size_t count) {
+  memset(node, 0, sizeof *node); /* padding too: equal scenes are equal bytes */
   for (size_t i = 0; i < QN_BVH_WIDE; i++) {
     for (int k = 0; k < 3; k++) {
       node->min[k][i] = i < count ? terms[term0 + i].min[k] : INFINITY;
