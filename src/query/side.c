@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 quoin_status qn_query_side(quoin_work *work, qn_query_point *point, quoin_side *out) {
   qn_scratch_counts(work->scratch)->exact_points++;
@@ -14,53 +15,36 @@ quoin_status qn_query_side(quoin_work *work, qn_query_point *point, quoin_side *
   return qn_around(work->scene, work->scratch, &point->point, work->near, work->near_count, work->near_halves, work->near_half_count, out);
 }
 
-/* A batch of points: those that wide code cannot certify are left. */
-typedef struct batch {
-  size_t n, wide;
-  qn_wide_point point[QN_POINTS]; /* for wide code */
-  uint16_t place[QN_POINTS];      /* theirs among all n */
-  uint8_t verdict[QN_POINTS], left[QN_POINTS];
-} batch;
-
-/* 0 for what is no point. */
-QN_INLINE int add(batch *b, const double x[3], const double weight[3]) {
-  double size = fabs(x[0]) > fabs(x[1]) ? fabs(x[0]) : fabs(x[1]), w = weight[0] > weight[1] ? weight[0] : weight[1];
-  size = fabs(x[2]) > size ? fabs(x[2]) : size;
-  w = weight[2] > w ? weight[2] : w;
-  b->left[b->n] = 1;
-  if (QN_LIKELY(size + 0 * (x[0] + x[1] + x[2]) <= QN_WIDE_LARGEST)) { /* then the weight is no larger; and no coordinate is infinite or not a number */
-    b->point[b->wide] = (qn_wide_point){{x[0], x[1], x[2]}, w};
-    b->place[b->wide++] = (uint16_t)b->n;
-  } else if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2])) {
-    return 0;
-  }
-  b->n++;
-  return 1;
-}
-
-static quoin_status certify(quoin_work *work, batch *b, quoin_side *out) {
-  static const quoin_side SIDES[] = {[QN_SURELY_OUT] = QUOIN_OUTSIDE, [QN_SURELY_IN] = QUOIN_INSIDE};
-  if (!work->scene->normal.made || b->wide == 0) {
+/* Points for wide code, xyz after xyz, with their weights (or null), into verdicts: QN_NOT_SURE for all when there is no normal form. */
+static quoin_status certify(quoin_work *work, size_t n, const double *points, const double *weights, uint8_t verdict[QN_POINTS]) {
+  qn_counts *counts = qn_scratch_counts(work->scratch);
+  const qn_normal *normal = &work->scene->normal;
+  counts->points += n;
+  if (!normal->made) {
+    memset(verdict, QN_NOT_SURE, n);
     return QUOIN_OK;
   }
   if (!work->point_walk && !(work->point_walk = qn_alloc_line(work->mem, sizeof *work->point_walk))) {
     return QUOIN_E_MEMORY;
   }
-  if (!work->cells_asked && qn_scratch_counts(work->scratch)->points >= work->scene->normal.term_count) { /* by now they pay */
+  if (!work->cells_asked && counts->points >= normal->term_count) { /* by now they pay */
     work->cells_asked = 1;
     work->cells = qn_scene_cells(work->scene);
   }
   work->point_walk->cells = work->cells;
-  qn_wide_counts counts = {0};
-  work->wide->points(work->scene, work->point_walk, b->wide, b->point, b->verdict, &counts);
-  qn_scratch_counts(work->scratch)->nodes += counts.nodes;
-  qn_scratch_counts(work->scratch)->leaves += counts.leaves;
-  for (size_t k = 0; k < b->wide; k++) {
-    size_t i = b->place[k];
-    b->left[i] = b->verdict[k] == QN_NOT_SURE;
-    out[i] = SIDES[b->verdict[k]]; /* of a point that is left it means nothing */
-  }
+  qn_wide_counts wide = {0};
+  work->wide->points(work->scene, work->point_walk, n, points, weights, verdict, &wide);
+  counts->nodes += wide.nodes, counts->leaves += wide.leaves;
   return QUOIN_OK;
+}
+
+static const quoin_side SIDES[] = {[QN_SURELY_OUT] = QUOIN_OUTSIDE, [QN_SURELY_IN] = QUOIN_INSIDE};
+
+static quoin_status side_of_doubles(quoin_work *work, const double x[3], quoin_side *out) {
+  qn_query_point p;
+  qn_query_begin(work);
+  quoin_status status = qn_query_point_doubles(work, x, &p);
+  return status == QUOIN_OK ? qn_query_side(work, &p, out) : status;
 }
 
 quoin_status quoin_point_side(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_side *out) {
@@ -68,29 +52,46 @@ quoin_status quoin_point_side(const quoin_scene *scene, quoin_work *work, const 
 }
 
 quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_t n, const double *points, quoin_side *out) {
-  static const double exact[3] = {0, 0, 0};
   if (!scene || !work || work->scene != scene || (n != 0 && (!points || !out))) {
     return QUOIN_E_ARGUMENT;
   }
-  quoin_status status = QUOIN_OK;
-  for (size_t at = 0; at < n && status == QUOIN_OK; at += QN_POINTS) {
-    batch b;
-    b.n = b.wide = 0;
-    for (size_t i = at; i < n && b.n < QN_POINTS && add(&b, points + 3 * i, exact); i++) {
-    }
-    qn_scratch_counts(work->scratch)->points += b.n;
-    status = certify(work, &b, out + at);
-    for (size_t i = 0; i < b.n && status == QUOIN_OK; i++) {
-      if (b.left[i]) {
-        qn_query_point p;
-        qn_query_begin(work);
-        status = qn_query_point_doubles(work, points + 3 * (at + i), &p);
-        status = status == QUOIN_OK ? qn_query_side(work, &p, &out[at + i]) : status;
+  uint8_t verdict[QN_POINTS];
+  for (size_t at = 0; at < n; at += QN_POINTS) {
+    const double *x = points + 3 * at;
+    size_t count = n - at < QN_POINTS ? n - at : QN_POINTS;
+    quoin_status status = certify(work, count, x, NULL, verdict);
+    for (size_t i = 0; i < count && status == QUOIN_OK; i++) {
+      out[at + i] = SIDES[verdict[i]];
+      if (QN_UNLIKELY(verdict[i] == QN_NOT_SURE)) {
+        status = side_of_doubles(work, x + 3 * i, &out[at + i]);
       }
     }
-    if (status == QUOIN_OK && b.n < QN_POINTS && at + b.n < n) {
-      return QUOIN_E_ARGUMENT;
+    if (status != QUOIN_OK) {
+      return status;
     }
+  }
+  return QUOIN_OK;
+}
+
+/* A batch of decimals. */
+typedef struct decimals {
+  size_t n;
+  double x[3 * QN_POINTS], weight[QN_POINTS];
+  uint8_t verdict[QN_POINTS];
+} decimals;
+
+/* The sides of a batch, in order; *done is increased by those that were found. */
+static quoin_status settle(quoin_work *work, decimals *d, const char *const *texts, quoin_side *out, size_t *done) {
+  quoin_status status = certify(work, d->n, d->x, d->weight, d->verdict);
+  for (size_t i = 0; i < d->n && status == QUOIN_OK; i++) {
+    out[i] = SIDES[d->verdict[i]];
+    if (QN_UNLIKELY(d->verdict[i] == QN_NOT_SURE)) {
+      qn_query_point p;
+      qn_query_begin(work);
+      status = qn_query_point_text(work, texts + 3 * i, &p);
+      status = status == QUOIN_OK ? qn_query_side(work, &p, &out[i]) : status;
+    }
+    *done += status == QUOIN_OK;
   }
   return status;
 }
@@ -102,36 +103,24 @@ quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, 
   if (!scene || !work || work->scene != scene || (n != 0 && (!points || !out))) {
     return QUOIN_E_ARGUMENT;
   }
-  quoin_status wrong = QUOIN_OK; /* the first point that is none */
-  while (*done < n && wrong == QUOIN_OK) {
+  quoin_status status = QUOIN_OK, wrong = QUOIN_OK; /* wrong: of the first point that is none */
+  while (*done < n && status == QUOIN_OK && wrong == QUOIN_OK) {
     const char *const *texts = points + 3 * *done;
-    quoin_side *sides = out + *done;
-    batch b;
-    b.n = b.wide = 0;
+    size_t most = n - *done < QN_POINTS ? n - *done : QN_POINTS;
+    decimals d;
+    d.n = 0;
     qn_query_begin(work);
-    for (; *done + b.n < n && b.n < QN_POINTS && wrong == QUOIN_OK;) {
+    while (d.n < most && wrong == QUOIN_OK) {
       qn_query_point p;
-      wrong = qn_query_point_text(work, texts + 3 * b.n, &p);
-      if (wrong == QUOIN_OK && !add(&b, p.x, p.weight)) { /* beyond all doubles: left */
-        b.n++;
+      wrong = qn_query_point_text(work, texts + 3 * d.n, &p);
+      if (wrong == QUOIN_OK) {
+        memcpy(d.x + 3 * d.n, p.x, sizeof p.x);
+        d.weight[d.n++] = fmax(fmax(p.weight[0], p.weight[1]), p.weight[2]);
       }
     }
-    qn_scratch_counts(work->scratch)->points += b.n;
-    quoin_status status = certify(work, &b, sides);
-    for (size_t i = 0; i < b.n; i++) {
-      if (status == QUOIN_OK && b.left[i]) {
-        qn_query_point p;
-        qn_query_begin(work);
-        status = qn_query_point_text(work, texts + 3 * i, &p);
-        status = status == QUOIN_OK ? qn_query_side(work, &p, &sides[i]) : status;
-      }
-      if (status != QUOIN_OK) {
-        return status;
-      }
-      ++*done;
-    }
+    status = settle(work, &d, texts, out + *done, done);
   }
-  return wrong;
+  return status != QUOIN_OK ? status : wrong;
 }
 
 quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_side *out) {

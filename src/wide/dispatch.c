@@ -9,7 +9,7 @@
   void qn_one_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);        \
   void qn_spans_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *);     \
   void qn_spans_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *); \
-  void qn_points_##isa(const struct quoin_scene *, qn_point_walk *, size_t, const qn_wide_point *, uint8_t *, qn_wide_counts *); \
+  void qn_points_##isa(const struct quoin_scene *, qn_point_walk *, size_t, const double *, const double *, uint8_t *, qn_wide_counts *); \
   void qn_spots_##isa(const qn_packet_hits *, uint64_t, const double *, quoin_spot *, size_t);           \
   int qn_round_one_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, double *, uint64_t *); \
   uint64_t qn_round_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, uint64_t, double *, uint64_t *);

@@ -18,30 +18,30 @@ QN_INLINE unsigned verdict_of(double value, double bound) {
   return value < -bound ? QN_SURELY_IN : value > bound ? QN_SURELY_OUT : QN_NOT_SURE;
 }
 
-QN_INLINE unsigned in_sphere(const qn_piece_sphere *s, const qn_wide_point *p) {
-  double y0 = p->x[0] - s->centre[0], y1 = p->x[1] - s->centre[1], y2 = p->x[2] - s->centre[2];
-  double off = s->off + QN_U * p->weight, square = (y0 * y0 + y1 * y1) + y2 * y2;
+QN_INLINE unsigned in_sphere(const qn_piece_sphere *s, qn_wide_point p) {
+  double y0 = p.x[0] - s->centre[0], y1 = p.x[1] - s->centre[1], y2 = p.x[2] - s->centre[2];
+  double off = s->off + QN_U * p.weight, square = (y0 * y0 + y1 * y1) + y2 * y2;
   double bound = QN_POINT_BALL_E * (square + s->r2) + off * (3 * ((fabs(y0) + fabs(y1)) + fabs(y2)) + 4 * off) + QN_POINT_TINY;
   return verdict_of(square - s->r2, bound);
 }
 
-QN_INLINE unsigned in_box(const qn_piece_box *b, const qn_wide_point *p) {
+QN_INLINE unsigned in_box(const qn_piece_box *b, qn_wide_point p) {
   double depth = INFINITY; /* beneath the nearest face */
   for (int i = 0; i < 3; i++) {
-    double low = p->x[i] - b->lo[i], high = b->hi[i] - p->x[i];
+    double low = p.x[i] - b->lo[i], high = b->hi[i] - p.x[i];
     depth = low < depth ? low : depth;
     depth = high < depth ? high : depth;
   }
-  return verdict_of(-depth, QN_POINT_BOX_SLACK * (b->off + QN_U * p->weight) + QN_POINT_TINY);
+  return verdict_of(-depth, QN_POINT_BOX_SLACK * (b->off + QN_U * p.weight) + QN_POINT_TINY);
 }
 
 typedef struct framed { double y[3], w[3]; } framed; /* y and W */
 
-QN_INLINE framed frame_of(const double pivot[3], const qn_wide_point *p) {
+QN_INLINE framed frame_of(const double pivot[3], qn_wide_point p) {
   framed f;
   for (int i = 0; i < 3; i++) {
-    f.y[i] = p->x[i] - pivot[i];
-    f.w[i] = fabs(f.y[i]) + p->weight;
+    f.y[i] = p.x[i] - pivot[i];
+    f.w[i] = fabs(f.y[i]) + p.weight;
   }
   return f;
 }
@@ -75,7 +75,7 @@ QN_INLINE unsigned in_quadric(const double row[3][4], const double s[3], double 
   return most <= QN_POINT_LARGEST ? verdict_of(q + k, QN_POINT_FORM_E * size + QN_POINT_TINY) : QN_NOT_SURE;
 }
 
-static unsigned in_round(const qn_piece_round *r, const qn_wide_point *p) {
+static unsigned in_round(const qn_piece_round *r, qn_wide_point p) {
   framed f = frame_of(r->pivot, p);
   unsigned all = in_quadric(r->row, r->s, r->l, r->k, &f);
   for (int i = 0; i < 2 && all != QN_SURELY_OUT; i++) {
@@ -88,7 +88,7 @@ static unsigned in_round(const qn_piece_round *r, const qn_wide_point *p) {
 }
 
 /* Any meet of planes and quadrics, from the scene's shadows. */
-static unsigned in_meet(const struct quoin_scene *scene, uint32_t number, const qn_wide_point *p) {
+static unsigned in_meet(const struct quoin_scene *scene, uint32_t number, qn_wide_point p) {
   const qn_leaf *leaf = &scene->leaves[number];
   framed f = frame_of(leaf->pivot, p);
   unsigned all = QN_SURELY_IN;
@@ -114,7 +114,7 @@ static unsigned in_meet(const struct quoin_scene *scene, uint32_t number, const 
   return all;
 }
 
-QN_INLINE unsigned in_piece(const struct quoin_scene *scene, const qn_piece_head *head, const qn_wide_point *p) {
+QN_INLINE unsigned in_piece(const struct quoin_scene *scene, const qn_piece_head *head, qn_wide_point p) {
   switch ((qn_piece_kind)head->kind) {
   case QN_PIECE_SPHERE: return in_sphere((const qn_piece_sphere *)(const void *)head, p);
   case QN_PIECE_BOX: return in_box((const qn_piece_box *)(const void *)head, p);

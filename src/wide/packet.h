@@ -95,9 +95,8 @@ typedef struct qn_packet_spans {
 /* Fills spans; live lanes must have from < to or are not solved. No tiles. */
 typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
 struct qn_point_walk;
-struct qn_wide_point;
 /* The sides of points, as far as doubles certify them: wide/points.h. */
-typedef void (*qn_points_fn)(const struct quoin_scene *scene, struct qn_point_walk *walk, size_t n, const struct qn_wide_point *points, uint8_t *verdict,
+typedef void (*qn_points_fn)(const struct quoin_scene *scene, struct qn_point_walk *walk, size_t n, const double *points, const double *weights, uint8_t *verdict,
                              qn_wide_counts *counts);
 /* The spots of a whole tile into eight rows of eight, `stride` apart: of the lanes in `met`, at t (aligned to 64); nothing in the others. */
 typedef void (*qn_spots_fn)(const qn_packet_hits *hits, uint64_t met, const double t[QN_LANES], quoin_spot *out, size_t stride);

@@ -11,11 +11,11 @@ enum {
   QN_POINT_ROOM = 1 << 15 /* entries of a walk; a walk that would need more gives its points up */
 };
 
-/* A point in doubles: each true coordinate is within u weight of x. |x|, weight <= QN_WIDE_LARGEST. */
-typedef struct qn_wide_point { double x[3], weight; } qn_wide_point;
+/* A point in doubles: each true coordinate is within u weight of x, and weight is at most the largest |x_i| or DBL_MIN. */
+typedef struct qn_wide_point { const double *x; double weight; } qn_wide_point;
 
-/* A qn_points_fn (wide/packet.h) fills verdict[0 .. n-1], n <= QN_POINTS; the scene's normal form is made.
-   Where a point is, in the order in which a union takes the largest and a meet the least. */
+/* A qn_points_fn (wide/packet.h) takes n <= QN_POINTS points, xyz after xyz, and their weights (null: all 0), and fills verdict[0 .. n-1]; of points
+   beyond QN_WIDE_LARGEST, or that are none, nothing is sure. The scene's normal form is made. Where a point is, in the order in which a union takes the largest and a meet the least. */
 enum { QN_SURELY_OUT, QN_NOT_SURE, QN_SURELY_IN };
 
 /* A thread's memory for a batch. */

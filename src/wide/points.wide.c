@@ -25,13 +25,17 @@ _Static_assert((int)PAIRS <= (int)QN_POINTS && (int)PAIRS == (int)QN_BVH_WIDE * 
 
 typedef struct walk {
   const struct quoin_scene *scene;
-  const qn_wide_point *points;
+  const double *points, *weights;
   qn_point_walk *room;
   size_t top; /* entries on the stack */
   qn_wide_counts counts;
 } walk;
 
 #define NOWHERE (UINT32_MAX - 1) /* the cell of a question that is not asked of a grid */
+
+QN_INLINE qn_wide_point point_of(const walk *w, size_t i) {
+  return (qn_wide_point){w->points + 3 * i, w->weights ? w->weights[i] : 0};
+}
 
 /* n questions: is point[i] in the union un[i]? */
 typedef struct questions { size_t n; uint32_t point[QN_POINTS], un[QN_POINTS]; uint8_t verdict[QN_POINTS]; } questions;
@@ -130,34 +134,30 @@ typedef struct open_term { uint32_t query, term; uint8_t verdict; } open_term;
 static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t count) {
   const qn_normal *normal = &w->scene->normal;
   questions below;
-  uint32_t of[QN_POINTS];
   for (uint32_t i = 0; count; i++) {
-    size_t left = 0;
-    below.n = 0;
+    below.n = count;
     for (size_t k = 0; k < count; k++) {
       const qn_nterm *t = &normal->terms[open[k].term];
-      uint8_t *answer = &q->verdict[open[k].query];
-      if (open[k].verdict <= *answer) {
-        continue;
+      below.point[k] = q->point[open[k].query];
+      below.un[k] = normal->lists[i < t->minus ? t->minus0 + i : t->plus0 + (i - t->minus)];
+    }
+    ask(w, &below);
+    size_t left = 0;
+    for (size_t k = 0; k < count; k++) {
+      open_term o = open[k];
+      const qn_nterm *t = &normal->terms[o.term];
+      uint8_t *answer = &q->verdict[o.query], v = below.verdict[k];
+      v = i < t->minus ? (uint8_t)(QN_SURELY_IN - v) : v;
+      o.verdict = v < o.verdict ? v : o.verdict;
+      if (o.verdict > *answer) {
+        if (i + 1 == t->minus + t->plus) {
+          *answer = o.verdict;
+        } else {
+          open[left++] = o;
+        }
       }
-      if (i == t->minus + t->plus) {
-        *answer = open[k].verdict;
-        continue;
-      }
-      open[left] = open[k];
-      of[below.n] = (uint32_t)left++;
-      below.point[below.n] = q->point[open[k].query];
-      below.un[below.n++] = normal->lists[i < t->minus ? t->minus0 + i : t->plus0 + (i - t->minus)];
     }
     count = left;
-    if (count) {
-      ask(w, &below);
-    }
-    for (size_t k = 0; k < below.n; k++) {
-      open_term *o = &open[of[k]];
-      unsigned v = i < normal->terms[o->term].minus ? QN_SURELY_IN - below.verdict[k] : below.verdict[k];
-      o->verdict = (uint8_t)(v < o->verdict ? v : o->verdict);
-    }
   }
 }
 
@@ -177,6 +177,28 @@ QN_INLINE void fetch_piece(const qn_piece_head *head) {
 QN_INLINE unsigned term_meets(const qn_nterm *t, const float box[8]) {
   __m128 in = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(t->min), _mm_load_ps(box + 4)), _mm_cmple_ps(_mm_load_ps(box), _mm_loadu_ps(t->max)));
   return (_mm_movemask_ps(in) & 7) == 7; /* the fourth are other fields */
+}
+
+/* One pair: the answer goes into the question's verdict, or into *open, then 1 is returned. first: the piece of the term's first leaf. */
+QN_INLINE size_t settle_pair(walk *w, questions *q, uint32_t query, uint32_t term, const qn_piece_head *first, open_term *open) {
+  const struct quoin_scene *scene = w->scene;
+  const qn_nterm *t = &scene->normal.terms[term];
+  qn_wide_point p = point_of(w, q->point[query]);
+  unsigned answer = q->verdict[query], all = QN_SURELY_IN;
+  for (uint32_t i = 0; i < t->leaves && all > answer; i++) {
+    unsigned one = in_piece(scene, i ? piece_at(scene, scene->normal.leaves[t->leaf0 + i]) : first, p);
+    all = one < all ? one : all;
+    w->counts.leaves++;
+  }
+  if (all <= answer) {
+    return 0;
+  }
+  if (t->minus + t->plus) {
+    *open = (open_term){query, term, (uint8_t)all};
+    return 1;
+  }
+  q->verdict[query] = (uint8_t)all;
+  return 0;
 }
 
 /* Answers to (question, term) pairs go into the questions' verdicts. Each stage asks memory for what the next one reads, for all pairs. The
@@ -209,23 +231,22 @@ static void settle_pairs(walk *w, questions *q, size_t count, uint32_t *query, u
     }
   }
   for (size_t k = 0; k < met; k++) {
-    uint8_t *answer = &q->verdict[query[k]];
-    const qn_nterm *t = &terms[term[k]];
-    const qn_wide_point *p = &w->points[q->point[query[k]]];
-    unsigned all = QN_SURELY_IN;
-    for (uint32_t i = 0; i < t->leaves && all > *answer; i++) {
-      unsigned one = in_piece(scene, i ? piece_at(scene, leaves[t->leaf0 + i]) : first[k], p);
-      all = one < all ? one : all;
-      w->counts.leaves++;
-    }
-    if (all <= *answer) {
-      continue;
-    }
-    if (t->minus + t->plus) {
-      open[opened++] = (open_term){query[k], term[k], (uint8_t)all};
-    } else {
-      *answer = (uint8_t)all;
-    }
+    opened += settle_pair(w, q, query[k], term[k], first[k], &open[opened]);
+  }
+  if (opened) {
+    ask_lists(w, q, open, opened);
+  }
+}
+
+/* All questions about one term, whose box is not looked at: its leaves say as much. */
+static void settle_term(walk *w, questions *q, uint32_t term) {
+  const struct quoin_scene *scene = w->scene;
+  const qn_nterm *t = &scene->normal.terms[term];
+  const qn_piece_head *first = t->leaves ? piece_at(scene, scene->normal.leaves[t->leaf0]) : NULL;
+  open_term open[QN_POINTS];
+  size_t opened = 0;
+  for (size_t i = 0; i < q->n; i++) {
+    opened += settle_pair(w, q, (uint32_t)i, term, first, &open[opened]);
   }
   if (opened) {
     ask_lists(w, q, open, opened);
@@ -369,29 +390,45 @@ static void ask(walk *w, questions *q) {
 /* --- a batch ---------------------------------------------------------------------------------------------------------- */
 
 /* The floats about a point: 2u weight to either side, then outward by more than a float's rounding, which moves by under 2^-24 of it or by
-   under the smallest normal float. The fourth is any number. */
-QN_INLINE void box_of(const qn_wide_point *p, float box[8]) {
+   under the smallest normal float; the fourth is any number. 0 for a point beyond the range of the bounds, or not all of numbers. */
+QN_INLINE size_t box_of(qn_wide_point p, float box[8]) {
   const __m128 size = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff)), step = _mm_set1_ps(QN_FLOAT_STEP), tiny = _mm_set1_ps(QN_FLOAT_TINY);
-  const __m128d xy = _mm_loadu_pd(p->x), zw = _mm_loadu_pd(p->x + 2), e = _mm_set1_pd(2 * QN_U * p->weight);
-  __m128 low = _mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(xy, e)), _mm_cvtpd_ps(_mm_sub_pd(zw, e)));
-  __m128 high = _mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(xy, e)), _mm_cvtpd_ps(_mm_add_pd(zw, e)));
-  _mm_store_ps(box, _mm_sub_ps(low, _mm_add_ps(_mm_mul_ps(_mm_and_ps(low, size), step), tiny)));
-  _mm_store_ps(box + 4, _mm_add_ps(high, _mm_add_ps(_mm_mul_ps(_mm_and_ps(high, size), step), tiny)));
+  const __m128d xy = _mm_loadu_pd(p.x), z = _mm_load_sd(p.x + 2), e = _mm_set1_pd(2 * QN_U * p.weight);
+  __m128 low = _mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(xy, e)), _mm_cvtpd_ps(_mm_sub_pd(z, e)));
+  __m128 high = _mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(xy, e)), _mm_cvtpd_ps(_mm_add_pd(z, e)));
+  low = _mm_sub_ps(low, _mm_add_ps(_mm_mul_ps(_mm_and_ps(low, size), step), tiny));
+  high = _mm_add_ps(high, _mm_add_ps(_mm_mul_ps(_mm_and_ps(high, size), step), tiny));
+  _mm_store_ps(box, low);
+  _mm_store_ps(box + 4, high);
+  const __m128 most = _mm_set1_ps((float)QN_WIDE_LARGEST);
+  __m128 small = _mm_and_ps(_mm_cmple_ps(_mm_and_ps(low, size), most), _mm_cmple_ps(_mm_and_ps(high, size), most));
+  return (_mm_movemask_ps(small) & 7) == 7;
 }
 
-void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const qn_wide_point *points, uint8_t *verdict, qn_wide_counts *counts);
-void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const qn_wide_point *points, uint8_t *verdict, qn_wide_counts *counts) {
-  walk w = {.scene = scene, .points = points, .room = room};
+void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const double *points, const double *weights, uint8_t *verdict, qn_wide_counts *counts);
+void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const double *points, const double *weights, uint8_t *verdict, qn_wide_counts *counts) {
+  walk w = {.scene = scene, .points = points, .weights = weights, .room = room};
   questions q;
-  q.n = n;
+  q.n = 0;
   for (size_t i = 0; i < n; i++) {
-    box_of(&points[i], room->box[i]);
-    q.point[i] = (uint32_t)i;
-    q.un[i] = scene->normal.root;
+    q.point[q.n] = (uint32_t)i;
+    q.un[q.n] = scene->normal.root;
+    q.n += box_of(point_of(&w, i), room->box[i]);
   }
-  ask(&w, &q);
-  for (size_t i = 0; i < n; i++) {
-    verdict[i] = scene->normal.complement ? (uint8_t)(QN_SURELY_IN - q.verdict[i]) : q.verdict[i];
+  const qn_union *root = &scene->normal.unions[scene->normal.root];
+  if (root->terms + root->wide <= FEW) {
+    memset(q.verdict, QN_SURELY_OUT, q.n);
+    for (uint32_t k = 0; k < root->terms + root->wide; k++) {
+      settle_term(&w, &q, k < root->terms ? root->term0 + k : root->wide0 + (k - root->terms));
+    }
+  } else {
+    ask(&w, &q);
+  }
+  if (q.n < n) {
+    memset(verdict, QN_NOT_SURE, n);
+  }
+  for (size_t i = 0; i < q.n; i++) {
+    verdict[q.point[i]] = scene->normal.complement ? (uint8_t)(QN_SURELY_IN - q.verdict[i]) : q.verdict[i];
   }
   counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
 }

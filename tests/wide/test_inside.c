@@ -58,11 +58,12 @@ static void balls(void **state) {
   for (int round = 0; round < 200000; round++) {
     int range = below(3) ? 4 : 40;
     qn_piece_sphere s = {.off = below(2) ? 0 : fabs(part(range)) * 0x1p-53};
-    qn_wide_point p;
+    double at[3];
+    qn_wide_point p = {at, 0};
     double square = 0;
     for (int i = 0; i < 3; i++) {
       s.centre[i] = part(range);
-      p.x[i] = below(3) ? part(range) : s.centre[i] + part(range) * 0x1p-20;
+      at[i] = below(3) ? part(range) : s.centre[i] + part(range) * 0x1p-20;
       square += (p.x[i] - s.centre[i]) * (p.x[i] - s.centre[i]);
     }
     p.weight = below(2) ? 0 : fmax(fmax(fabs(p.x[0]), fabs(p.x[1])), fabs(p.x[2]));
@@ -83,7 +84,7 @@ static void balls(void **state) {
     units(e, 8 * (1 - 0x1p-40), s.r2); /* relative to the true one: within that of the stored one */
     nearby(y, s.r2, e);
     int truth = mpq_cmp(sum, y);
-    unsigned verdict = in_sphere(&s, &p);
+    unsigned verdict = in_sphere(&s, p);
     assert_true(verdict != QN_SURELY_IN || truth < 0);
     assert_true(verdict != QN_SURELY_OUT || truth > 0);
     c.in += verdict == QN_SURELY_IN, c.out += verdict == QN_SURELY_OUT, c.open += verdict == QN_NOT_SURE;
@@ -104,7 +105,8 @@ static void boxes(void **state) {
   mpq_inits(e, x, lo, hi, NULL);
   for (int round = 0; round < 200000; round++) {
     qn_piece_box b = {.off = below(3) ? fabs(part(60)) * 0x1p-50 : 0};
-    qn_wide_point p = {.weight = 0};
+    double at[3];
+    qn_wide_point p = {at, 0};
     if (below(2)) {
       p.weight = fabs(part(30));
     }
@@ -113,7 +115,7 @@ static void boxes(void **state) {
       b.lo[i] = part(30);
       b.hi[i] = b.lo[i] + 1.5 * fabs(part(30)) + 0x1p-50;
       double face = below(2) ? b.lo[i] : b.hi[i];
-      p.x[i] = below(8) == 0 ? part(30) : below(2) ? 0.5 * (b.lo[i] + b.hi[i]) : face + near * (1 + (below(9) - 4) * 0x1p-6) * (below(2) ? 1 : -1);
+      at[i] = below(8) == 0 ? part(30) : below(2) ? 0.5 * (b.lo[i] + b.hi[i]) : face + near * (1 + (below(9) - 4) * 0x1p-6) * (below(2) ? 1 : -1);
     }
     int truth = 1; /* of its depth: the least sign */
     for (int i = 0; i < 3; i++) {
@@ -126,7 +128,7 @@ static void boxes(void **state) {
       least = (least > 0) - (least < 0);
       truth = least < truth ? least : truth;
     }
-    unsigned verdict = in_box(&b, &p);
+    unsigned verdict = in_box(&b, p);
     assert_true(verdict != QN_SURELY_IN || truth > 0);
     assert_true(verdict != QN_SURELY_OUT || truth < 0);
     c.in += verdict == QN_SURELY_IN, c.out += verdict == QN_SURELY_OUT, c.open += verdict == QN_NOT_SURE;
@@ -146,15 +148,16 @@ static void known(void **state) {
   (void)state;
   qn_piece_sphere s = {.centre = {1, 0, 0}, .r2 = 25};
   qn_piece_box b = {.lo = {0, 0, 0}, .hi = {1, 2, 3}};
-  const qn_wide_point on = {{4, 4, 0}, 0}, middle = {{1, 1, 1}, 0}, far = {{0x1p+100, 0x1p+100, -0x1p+100}, 0x1p+100}, face = {{0.5, 2, 1}, 0};
-  assert_int_equal(in_sphere(&s, &on), QN_NOT_SURE);
-  assert_int_equal(in_sphere(&s, &middle), QN_SURELY_IN);
-  assert_int_equal(in_sphere(&s, &far), QN_SURELY_OUT);
-  assert_int_equal(in_box(&b, &face), QN_NOT_SURE);
-  assert_int_equal(in_box(&b, &far), QN_SURELY_OUT);
+  const double at[4][3] = {{4, 4, 0}, {1, 1, 1}, {0x1p+100, 0x1p+100, -0x1p+100}, {0.5, 2, 1}};
+  const qn_wide_point on = {at[0], 0}, middle = {at[1], 0}, far = {at[2], 0x1p+100}, face = {at[3], 0};
+  assert_int_equal(in_sphere(&s, on), QN_NOT_SURE);
+  assert_int_equal(in_sphere(&s, middle), QN_SURELY_IN);
+  assert_int_equal(in_sphere(&s, far), QN_SURELY_OUT);
+  assert_int_equal(in_box(&b, face), QN_NOT_SURE);
+  assert_int_equal(in_box(&b, far), QN_SURELY_OUT);
   const double huge[4] = {0x1p+300, 0, 0, 0}, flat[4] = {0, 0, 1, -1};
   const double pivot[3] = {0, 0, 0};
-  framed f = frame_of(pivot, &middle);
+  framed f = frame_of(pivot, middle);
   assert_int_equal(in_plane(huge, &f), QN_NOT_SURE);
   assert_int_equal(in_plane(flat, &f), QN_NOT_SURE); /* on it */
   f.y[2] = f.w[2] = 0.5;
