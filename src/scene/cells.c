@@ -116,16 +116,18 @@ static quoin_status add_grid(qn_cells *c, qn_mem *mem, const qn_normal *n, uint3
   uint8_t *crowded = qn_alloc_zeroed(mem, cells);
   quoin_status status = at && crowded ? QUOIN_OK : QUOIN_E_MEMORY;
   if (status == QUOIN_OK && first + cells < UINT32_MAX && count_terms(n, u, &g, at)) {
-    size_t total = c->term_count;
+    size_t total = c->term_count, many = 0;
     for (size_t i = 0; i < cells; i++) {
       uint32_t here = at[i + 1];
       crowded[i] = here > QN_CELL_MOST;
       at[i] = (uint32_t)total;
       total += crowded[i] ? 1 : here;
+      many += crowded[i];
     }
-    if (total >= UINT32_MAX || !qn_grow(mem, &c->start, &c->start_capacity, first + cells + 1) || !qn_grow(mem, &c->term, &c->term_capacity, total + QN_CELL_MOST)) {
+    int worth = many <= cells / 2; /* else most points would be asked twice */
+    if (worth && (total >= UINT32_MAX || !qn_grow(mem, &c->start, &c->start_capacity, first + cells + 1) || !qn_grow(mem, &c->term, &c->term_capacity, total + QN_CELL_MOST))) {
       status = QUOIN_E_MEMORY;
-    } else {
+    } else if (worth) {
       memcpy(c->start + first, at, cells * sizeof *at);
       c->start[first + cells] = (uint32_t)total;
       for (size_t i = 0; i < cells; i++) {
