@@ -13,7 +13,7 @@
 static size_t model_count = 400;
 static uint64_t first_seed = 0x9e3779b97f4a7c15u;
 
-typedef struct truth { int status, found, leaving; uint32_t part, surface, role; double t; } truth;
+typedef struct truth { int status, found, leaving, blocked; uint32_t part, surface, role; double t; } truth;
 
 /* What the ray meets first, by the woven path alone. */
 static truth weave_ray(const ask *a, const quoin_ray *ray) {
@@ -24,6 +24,7 @@ static truth weave_ray(const ask *a, const quoin_ray *ray) {
   qn_line_from_doubles(ray->o, ray->d, &line);
   const qn_range range = {{.t = ray->from, .surface = QN_NO_SURFACE}, {.t = ray->to, .surface = QN_NO_SURFACE}};
   out.status = qn_weave(a->scene, a->work->scratch, &line, &range, QN_WANT_FIRST, &woven);
+  out.blocked = out.status == QUOIN_OK && woven.inside_count > 0;
   if (out.status == QUOIN_OK && woven.inside_count) {
     const qn_stretch *first = &woven.inside[0];
     out.leaving = first->enter.leaf == UINT32_MAX;
@@ -43,6 +44,7 @@ typedef struct shares { uint64_t lanes, found, leaving, tied, unsure; } shares;
 static shares by_model[MODELS], by_bundle[BUNDLES], by_frame[FRAMES], by_isa[3], table[MODELS][BUNDLES];
 static const qn_wide *bodies[3];
 static size_t body_count;
+static size_t by_block[2];
 static size_t failures;
 enum { failures_shown = 3 };
 
@@ -156,6 +158,32 @@ static int is_line(const quoin_ray *r) {
   return finite == 0 && size > 0 && r->from <= r->to;
 }
 
+/* The same rays as spots, and whether they are blocked: as an array and one by one. */
+static void short_answers(const ask *a, quoin_work *work, const char *text, kind k, size_t n, const quoin_ray *rays, const truth *want) {
+  quoin_spot spots[64], spot;
+  uint8_t blocked[64], one;
+  assert_int_equal(quoin_first_spots(a->scene, work, n, rays, QUOIN_WANT_T, spots), QUOIN_OK);
+  assert_int_equal(quoin_rays_blocked(a->scene, work, n, rays, NULL, blocked), QUOIN_OK);
+  for (size_t i = 0; i < n; i++) {
+    const truth *w = &want[i];
+    if (w->status != QUOIN_OK) {
+      continue;
+    }
+    assert_int_equal(quoin_first_spots(a->scene, work, 1, &rays[i], QUOIN_WANT_T, &spot), QUOIN_OK);
+    assert_int_equal(quoin_rays_blocked(a->scene, work, 1, &rays[i], NULL, &one), QUOIN_OK);
+    if ((spot.surface != QUOIN_NO_SURFACE) != w->found || (w->found && (spot.surface != w->surface || (int)spot.leaving != w->leaving || memcmp(&spot.t, &w->t, sizeof w->t)))) {
+      blame("a spot", text, work->wide->name, k, &rays[i], w, NULL, 0);
+    }
+    if (memcmp(&spot, &spots[i], sizeof spot)) {
+      blame("one of many spots", text, work->wide->name, k, &rays[i], w, NULL, 0);
+    }
+    if (one != w->blocked || blocked[i] != w->blocked) {
+      blame(one != w->blocked ? "blocked or not" : "one of many, blocked or not", text, work->wide->name, k, &rays[i], w, NULL, 0);
+    }
+    by_block[w->blocked]++;
+  }
+}
+
 static void one_bundle(dice *d, const ask *a, const char *text, kind k, const frame *f) {
   quoin_ray rays[64];
   truth want[64];
@@ -208,6 +236,9 @@ static void one_bundle(dice *d, const ask *a, const char *text, kind k, const fr
         }
       }
     }
+    if (status == QUOIN_OK) {
+      short_answers(a, work, text, k, n, rays, want);
+    }
     quoin_work_free(work);
   }
 }
@@ -256,6 +287,98 @@ static void one_grid(dice *d, const ask *a, const char *text, kind k, const fram
   quoin_work_free(work);
 }
 
+/* Grids wider than the columns that are computed at once, in parts that begin anywhere. */
+static void wide_grids(void **state) {
+  (void)state;
+  ask a;
+  char text[2000];
+  writer w = {text, sizeof text, 0};
+  put(&w, "difference() { cube([300, 20, 10]);\n");
+  for (int i = 0; i < 30; i++) {
+    put(&w, "translate([%d, 5, -1]) cylinder(r = 3, h = 20);\n", 10 * i);
+  }
+  put(&w, "}\n");
+  ask_open(&a, text);
+  const quoin_grid grid = {.o = {-3, -2, 30}, .u = {310, 1, 0}, .v = {2, 26, 0}, .d = {0.01, 0.02, -1}, .width = 321, .height = 19, .from = 0, .to = HUGE_VAL};
+  static quoin_spot all[321 * 19], part[321 * 19];
+  assert_int_equal(quoin_grid_hits(a.scene, a.work, &grid, 0, 0, 321, 19, QUOIN_WANT_T, all), QUOIN_OK);
+  static const size_t parts[][4] = {{0, 0, 129, 19}, {5, 3, 321, 11}, {120, 0, 300, 1}, {128, 8, 136, 16}, {3, 17, 4, 19}};
+  size_t hits = 0;
+  for (size_t y = 0; y < 19; y++) {
+    for (size_t x = 0; x < 321; x++) {
+      double s = ((double)x + 0.5) / 321, r = ((double)y + 0.5) / 19;
+      quoin_ray ray = {.from = 0, .to = HUGE_VAL};
+      for (int i = 0; i < 3; i++) {
+        ray.o[i] = (grid.o[i] + s * grid.u[i]) + r * grid.v[i], ray.d[i] = grid.d[i];
+      }
+      truth want = weave_ray(&a, &ray);
+      const quoin_spot *got = &all[y * 321 + x];
+      assert_int_equal(got->surface != QUOIN_NO_SURFACE, want.found);
+      if (want.found) {
+        assert_int_equal(got->surface, want.surface);
+        assert_memory_equal(&got->t, &want.t, sizeof want.t);
+      }
+      hits += (size_t)want.found;
+    }
+  }
+  assert_true(hits > 1000 && hits < 321 * 19);
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+    const size_t *p = parts[k], width = p[2] - p[0];
+    assert_int_equal(quoin_grid_hits(a.scene, a.work, &grid, p[0], p[1], p[2], p[3], QUOIN_WANT_T, part), QUOIN_OK);
+    for (size_t y = p[1]; y < p[3]; y++) {
+      assert_memory_equal(part + (y - p[1]) * width, all + y * 321 + p[0], width * sizeof *part);
+    }
+  }
+  ask_close(&a);
+}
+
+static int stop_at_half(void *user, double done) {
+  ++*(int *)user;
+  return done >= 0.5;
+}
+
+/* A long array, whose parts go different ways, and a caller that stops. */
+static void many_blocked(void **state) {
+  (void)state;
+  ask a;
+  ask_open(&a, "difference() { union() { sphere(1.5); translate([4, 0, 0]) sphere(1.5); translate([8, 0, 0]) sphere(1.5); translate([12, 1, 0]) sphere(1.5); } cube([20, 1, 1]); }");
+  enum { COUNT = 20000 };
+  static quoin_ray rays[COUNT];
+  static uint8_t blocked[COUNT];
+  dice d = {7};
+  for (int i = 0; i < COUNT; i++) {
+    const int run = i / 100 % 3; /* together, of one direction from anywhere, any which way */
+    quoin_ray *r = &rays[i];
+    *r = (quoin_ray){.from = 0, .to = roll(&d, 3) ? HUGE_VAL : 0.25 * roll(&d, 40)};
+    for (int k = 0; k < 3; k++) {
+      r->o[k] = run == 0 ? (k == 0 ? 0.05 * (i % 10) : 0.01 * (i % 100 / 10)) - 2 : 0.25 * (roll(&d, 81) - 20);
+      r->d[k] = run < 2 ? 1 + k : roll(&d, 21) - 10;
+    }
+    r->d[2] = r->d[0] == 0 && r->d[1] == 0 && r->d[2] == 0 ? 1 : r->d[2];
+  }
+  assert_int_equal(quoin_rays_blocked(a.scene, a.work, COUNT, rays, NULL, blocked), QUOIN_OK);
+  size_t count[2] = {0, 0};
+  for (int i = 0; i < COUNT; i++) {
+    quoin_intervals answer;
+    assert_int_equal(quoin_ray_intervals(a.scene, a.work, &rays[i], 0, &answer), QUOIN_OK);
+    assert_int_equal(blocked[i], answer.count > 0);
+    count[blocked[i]]++;
+  }
+  assert_true(count[0] > 1000 && count[1] > 1000);
+  int asked = 0;
+  const quoin_progress progress = {stop_at_half, &asked};
+  assert_int_equal(quoin_rays_blocked(a.scene, a.work, COUNT, rays, &progress, blocked), QUOIN_E_CANCELLED);
+  assert_true(asked > 1);
+  assert_int_equal(quoin_rays_blocked(a.scene, a.work, 0, NULL, NULL, NULL), QUOIN_OK);
+  rays[3].d[0] = rays[3].d[1] = rays[3].d[2] = 0;
+  assert_int_equal(quoin_rays_blocked(a.scene, a.work, 5, rays, NULL, blocked), QUOIN_E_ARGUMENT);
+  quoin_spot spots[5];
+  assert_int_equal(quoin_first_spots(a.scene, a.work, 5, rays, 0, spots), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_first_spots(a.scene, a.work, 3, rays, 0, NULL), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_first_spots(a.scene, a.work, 3, rays, 0, spots), QUOIN_OK);
+  ask_close(&a);
+}
+
 static void print_census(const char *title, const char *const *names, const shares *c, size_t n) {
   print_message("%-22s %10s %7s %8s %8s %8s\n", title, "lanes", "found", "leaving", "tied", "given up");
   for (size_t i = 0; i < n; i++) {
@@ -286,6 +409,7 @@ static void random_models(void **state) {
     one_grid(&d, &a, text, k, &f);
     ask_close(&a);
   }
+  print_message("rays asked whether they are blocked: %zu are, %zu not\n", by_block[1], by_block[0]);
   print_census("model", MODEL_NAMES, by_model, MODELS);
   print_census("rays", BUNDLE_NAMES, by_bundle, BUNDLES);
   print_census("place", FRAME_NAMES, by_frame, FRAMES);
@@ -401,6 +525,6 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_bodies();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(many_blocked), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
