@@ -97,16 +97,15 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
     if (!vbits(m)) {
       continue;
     }
-    double *tolerance = w->tolerance + o;
-    const vd all = vmax(vload(tolerance), vpick(m, vadd(s.error, s.error), vset(0)));
-    vstore(tolerance, all);
+    const vd all = CHECKED ? vmax(vload(w->tolerance + o), vpick(m, vadd(s.error, s.error), vset(0))) : vset(0);
+    vstore(w->tolerance + o, all);
     vd start = vload(from->t + o), pstart = vload(from->p + o), limit = vload(best->t + o);
     /* Mostly the three orders below are certain; then they come out as here. */
     vd to_end = vsub(s.b, start), to_entry = vsub(s.a, start);
     vm over = vandnot(m, vlt(all, to_end)), entered = vandnot(m, vlt(all, to_entry));
     vd t1 = vpick(entered, start, s.a), to_limit = vsub(limit, t1);
     vm sure = vand(vlt(all, vabs(to_end)), vor(over, vand(vlt(all, vabs(to_entry)), vlt(all, vabs(to_limit)))));
-    if (QN_LIKELY(!vbits(vandnot(m, sure)))) {
+    if (!CHECKED || QN_LIKELY(!vbits(vandnot(m, sure)))) {
       vm better = vand(vandnot(m, over), vlt(all, to_limit));
       vstore(best->t + o, vpick(better, t1, limit));
       vstore(best->p + o, vpick(better, vpick(entered, pstart, s.pa), vload(best->p + o)));
@@ -535,7 +534,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   for (int g = 0; g < QN_GROUPS; g++) { /* beyond reach planes may have been taken for what they are not: something else is there */
     int o = g * QN_W;
     vd t = vload(best.t + o);
-    w.unsure |= ((uint64_t)(QN_ALL_BITS & ~vbits(vle(vabs(t), reach))) << o) & found;
+    w.unsure |= CHECKED ? ((uint64_t)(QN_ALL_BITS & ~vbits(vle(vabs(t), reach))) << o) & found : 0;
     vstore(hits->t + o, t), vstore(hits->error + o, vmul(vload(w.tolerance + o), vset(0.5)));
     hits->far_end |= (uint64_t)vsecond(vload(best.p + o)) << o;
   }

@@ -16,6 +16,12 @@
 #include <string.h>
 
 enum { QN_GROUPS = QN_LANES_NOW / QN_W };
+/* A benchmark builds the bodies once more without bounds and doubts, wrong wherever doubles are, to see what certainty costs (tests/bench). */
+#if defined(QN_UNCHECKED)
+enum { CHECKED = 0 };
+#else
+enum { CHECKED = 1 };
+#endif
 #define QN_FAR QN_SPAN_FAR /* an end that is not there */
 #define QN_NOBODY 0xffffffffu
 
@@ -48,8 +54,12 @@ QN_INLINE double farthest(const packet_facts *f, int i, double pivot) { return m
 /* A stretch of QN_W rays in a piece. Lanes not in `hit` and not in `unsure` surely miss. */
 typedef struct stretch { vd a, b, pa, pb, error; vm hit, unsure; } stretch;
 
+/* Lanes that are doubted, and a bound. */
+QN_INLINE vm doubt(vm m) { return CHECKED ? m : vmask(0); }
+QN_INLINE vd bound(double e) { return vset(CHECKED ? e : 0); }
+
 /* Lanes of which it is not certain that x and y are apart. */
-QN_INLINE vm near_each_other(vd x, vd y, vd tolerance) { return vandnot(vmask(QN_ALL_BITS), vlt(tolerance, vabs(vsub(x, y)))); }
+QN_INLINE vm near_each_other(vd x, vd y, vd tolerance) { return doubt(vandnot(vmask(QN_ALL_BITS), vlt(tolerance, vabs(vsub(x, y))))); }
 
 /* --- sphere ------------------------------------------------------------------------------------------------------ */
 typedef struct sphere_constants { vd cx, cy, cz, r2, ed_low, ed_high, error, pa, pb; } sphere_constants;
@@ -68,8 +78,8 @@ QN_INLINE void sphere_prepare(const packet_facts *f, const qn_piece_sphere *s, s
   double root_error = sqrt(ed) * f->p->shy; /* of sqrt((r2 - m.m) / d.d) where r2 - m.m > QN_WIDE_SHY ed; twice what it is */
   k->cx = vset(s->centre[0]), k->cy = vset(s->centre[1]), k->cz = vset(s->centre[2]);
   k->r2 = vset(s->r2);
-  k->ed_low = vset(-ed), k->ed_high = vset(QN_WIDE_SHY * ed);
-  k->error = vset((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) * idd + 2 * root_error + QN_WIDE_TINY);
+  k->ed_low = bound(-ed), k->ed_high = bound(QN_WIDE_SHY * ed);
+  k->error = bound((QN_WIDE_ROUND * QN_U * (H + r * d) + 3 * s->off * d) * idd + 2 * root_error + QN_WIDE_TINY);
   k->pa = vset(payload_bits(payload_of(s->surface, s->head.leaf, 0)));
   k->pb = vset(payload_bits(payload_of(s->surface, s->head.leaf, QN_LARGER_ROOT)));
 }
@@ -83,7 +93,7 @@ QN_INLINE stretch sphere_solve(const packet_facts *f, const sphere_constants *k,
   x = vsub(x, vmul(middle, dx)), y = vsub(y, vmul(middle, dy)), z = vsub(z, vmul(middle, dz));
   vd rest = vsub(k->r2, vfma(x, x, vfma(y, y, vmul(z, z))));
   vm hit = vlt(k->ed_high, rest);
-  stretch s = {.pa = k->pa, .pb = k->pb, .error = k->error, .hit = hit, .unsure = vandnot(vandnot(vmask(QN_ALL_BITS), vlt(rest, k->ed_low)), hit)};
+  stretch s = {.pa = k->pa, .pb = k->pb, .error = k->error, .hit = hit, .unsure = doubt(vandnot(vandnot(vmask(QN_ALL_BITS), vlt(rest, k->ed_low)), hit))};
   vd half = vsqrt(vmul(vpick(hit, rest, vset(0)), idd));
   s.a = vsub(vset(0), vadd(middle, half));
   s.b = vsub(half, middle);
@@ -102,9 +112,9 @@ QN_INLINE void plane_prepare(const packet_facts *f, const double pivot[3], const
     k->n[i] = vset(n[i]);
   }
   k->d = vset(d);
-  k->en = vset(QN_WIDE_ROUND * QN_U * en + QN_WIDE_TINY);
-  k->eden = vset(QN_WIDE_ROUND * QN_U * eden);
-  k->steep = vset(QN_WIDE_STEEP * eden);
+  k->en = bound(QN_WIDE_ROUND * QN_U * en + QN_WIDE_TINY);
+  k->eden = bound(QN_WIDE_ROUND * QN_U * eden);
+  k->steep = bound(QN_WIDE_STEEP * eden);
   k->px = vset(payload_bits(payload_of(surface, leaf, 0)));
 }
 
@@ -115,7 +125,7 @@ QN_INLINE void plane_beside(const packet_facts *f, const plane_constants *k, con
   vd terms = vadd(vadd(vabs(vmul(k->n[0], d[0])), vabs(vmul(k->n[1], d[1]))), vabs(vmul(k->n[2], d[2])));
   vd drift = vadd(k->en, vpick(vlt(zero, terms), vmul(vadd(vabs(den), k->eden), vset(f->reach)), zero));
   vm in = vlt(num, vsub(zero, drift)), out = vandnot(vlt(drift, num), crosses);
-  s->unsure = vandnot(vor(s->unsure, vandnot(vandnot(s->hit, crosses), in)), out);
+  s->unsure = doubt(vandnot(vor(s->unsure, vandnot(vandnot(s->hit, crosses), in)), out));
   s->hit = vandnot(s->hit, out);
 }
 
@@ -130,7 +140,7 @@ QN_INLINE void plane_meet(const packet_facts *f, const plane_constants *k, const
   }
   vd inv = vdiv(one, vpick(crosses, den, one));
   vd t = vsub(zero, vmul(num, inv));
-  vd error = vmul(vfma(vabs(t), k->eden, k->en), vmul(vabs(inv), vset(QN_WIDE_SLACK)));
+  vd error = CHECKED ? vmul(vfma(vabs(t), k->eden, k->en), vmul(vabs(inv), vset(QN_WIDE_SLACK))) : zero;
   s->error = vmax(s->error, vpick(crosses, error, zero));
   vm enters = vand(crosses, vlt(den, zero)), leaves = vandnot(crosses, enters);
   vd two = vmul(s->error, vset(2));
@@ -146,7 +156,7 @@ QN_INLINE void plane_meet(const packet_facts *f, const plane_constants *k, const
 QN_INLINE void stretch_settle(stretch *s) {
   vd two = vmul(s->error, vset(2)), length = vsub(s->b, s->a);
   vm none = vlt(length, vsub(vset(0), two)), some = vlt(two, length);
-  s->unsure = vandnot(vor(s->unsure, vandnot(s->hit, some)), none);
+  s->unsure = doubt(vandnot(vor(s->unsure, vandnot(s->hit, some)), none));
   s->hit = vandnot(vand(s->hit, some), s->unsure);
 }
 
@@ -157,7 +167,7 @@ QN_INLINE void box_prepare(const packet_facts *f, const qn_piece_box *b, box_con
   for (int i = 0; i < 3; i++) {
     double size = most(fabs(b->lo[i]), fabs(b->hi[i])) + farthest(f, i, 0);
     k->lo[i] = vset(b->lo[i]), k->hi[i] = vset(b->hi[i]);
-    k->en[i] = vset(QN_WIDE_ROUND * QN_U * size + 2 * b->off + QN_WIDE_TINY);
+    k->en[i] = bound(QN_WIDE_ROUND * QN_U * size + 2 * b->off + QN_WIDE_TINY);
     k->plo[i] = vset(payload_bits(payload_of(b->surface[2 * i], b->head.leaf, 0)));
     k->phi[i] = vset(payload_bits(payload_of(b->surface[2 * i + 1], b->head.leaf, 0)));
   }
@@ -176,12 +186,12 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
     vd t0 = vmul(low, inv), t1 = vmul(high, inv);
     a[i] = vpick(down, t1, t0), b[i] = vpick(down, t0, t1);
     pa[i] = vpick(down, k->phi[i], k->plo[i]), pb[i] = vpick(down, k->plo[i], k->phi[i]);
-    s.error = vmax(s.error, vmul(vmul(k->en[i], vabs(inv)), vset(QN_WIDE_SLACK)));
+    s.error = CHECKED ? vmax(s.error, vmul(vmul(k->en[i], vabs(inv)), vset(QN_WIDE_SLACK))) : zero;
     if (vbits(flat)) { /* along the slab: in it, out of it, or too near to tell */
       vm out = vor(vlt(k->en[i], low), vlt(high, vsub(zero, k->en[i])));
       vm in = vand(vlt(low, vsub(zero, k->en[i])), vlt(k->en[i], high));
       s.hit = vandnot(s.hit, vand(flat, out));
-      s.unsure = vor(s.unsure, vandnot(vandnot(flat, in), out));
+      s.unsure = doubt(vor(s.unsure, vandnot(vandnot(flat, in), out)));
       a[i] = vpick(flat, near, a[i]), b[i] = vpick(flat, far, b[i]);
       pa[i] = vpick(flat, nobody, pa[i]), pb[i] = vpick(flat, nobody, pb[i]);
     }
@@ -204,7 +214,7 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
   /* An edge counts only on a ray that meets the box. */
   vm none = vlt(vadd(s.b, two), s.a);
   s.hit = vandnot(s.hit, none);
-  s.unsure = vand(vor(s.unsure, tied), s.hit);
+  s.unsure = doubt(vand(vor(s.unsure, tied), s.hit));
   stretch_settle(&s);
   return s;
 }
@@ -247,14 +257,14 @@ QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const 
   double ea = c * A, eh = c * H + e * D * S, ec = c * C + 2 * S * R * e + S * e * e + 2 * fabs(l) * e;
   double ed = QN_WIDE_SLACK * (2 * H * eh + eh * eh + A * ec + C * ea + ea * ec + c * (H * H + A * C)) + QN_WIDE_TINY * QN_WIDE_TINY;
   double solved = QN_WIDE_SHY * ed;
-  k->sound = isfinite(ed) && e <= R / 8;
+  k->sound = !CHECKED || (isfinite(ed) && e <= R / 8);
   k->linear = A == 0 && l != 0;
   k->l = vset(l), k->k = vset(k0);
   k->reach2 = vset(R * R), k->far2 = vset(4 * R * R * QN_WIDE_SLACK);
-  k->ed_low = vset(-ed), k->ed_high = vset(solved);
-  k->ea = vset(ea), k->eh = vset(eh), k->ec = vset(ec);
-  k->flat = vset(QN_WIDE_FLAT * A);
-  k->gap = vset(QN_WIDE_SLACK * (eh + 2 * ed / sqrt(solved) + c * (2 * H + sqrt(A * C))));
+  k->ed_low = bound(-ed), k->ed_high = bound(solved);
+  k->ea = bound(ea), k->eh = bound(eh), k->ec = bound(ec);
+  k->flat = bound(QN_WIDE_FLAT * A);
+  k->gap = bound(QN_WIDE_SLACK * (eh + 2 * ed / sqrt(solved) + c * (2 * H + sqrt(A * C))));
   k->slow = vset(QN_WIDE_SLOW * D * D);
   if (k->linear) { /* h = l D_2 alone */
     k->eh = vset(c * fabs(l) * delta[2]), k->steep = vset(QN_WIDE_STEEP * fabs(l) * delta[2]);
@@ -285,7 +295,7 @@ QN_INLINE void body_line(const body_constants *k, vd t0, vd h, vd c, vd length2,
   vm solved = vlt(k->steep, vabs(h)), rises = vand(solved, vlt(zero, h));
   vd inv = vdiv(vset(0.5), vpick(solved, h, one)), r = vmul(c, inv), t = vsub(t0, r);
   vd error = vmul(vfma(vmul(vset(2), vabs(r)), k->eh, k->ec), vmul(vabs(inv), vset(QN_WIDE_SLACK)));
-  part->error = vpick(solved, vfma(vabs(t0), vset(8 * QN_U), error), zero);
+  part->error = CHECKED ? vpick(solved, vfma(vabs(t0), vset(8 * QN_U), error), zero) : zero;
   part->tb = vpick(rises, t, part->tb), part->pb = k->plow;
   part->ta = vpick(vandnot(solved, rises), t, part->ta);
   vm beside = vandnot(vmask(QN_ALL_BITS), solved);
@@ -317,7 +327,7 @@ QN_INLINE void body_roots(const body_constants *k, vd t0, vd a, vd h, vd c, vd l
   vd r0 = vmul(vsub(zero, vadd(h, root)), inv), r1 = vmul(vsub(root, h), inv);
   vd low = vadd(t0, vmin(r0, r1)), high = vadd(t0, vmax(r0, r1)), size = vabs(inv);
   vd error = vfma(vmul(k->ea, size), vmul(vset(2), vmax(vabs(r0), vabs(r1))), vmul(k->gap, size));
-  part->error = vpick(real, vfma(vabs(t0), vset(8 * QN_U), error), zero);
+  part->error = CHECKED ? vpick(real, vfma(vabs(t0), vset(8 * QN_U), error), zero) : zero;
   vm between = vandnot(real, opens), split = vand(vand(real, opens), s->hit);
   part->ta = vpick(between, low, part->ta), part->tb = vpick(between, high, part->tb);
   if (vbits(split)) {
@@ -366,7 +376,7 @@ QN_INLINE void body_meet(const body_constants *k, const vd y[3], const vd d[3], 
   s->error = vmax(s->error, part.error);
   vd two = vmul(s->error, vset(2));
   vm tied = vor(vand(vlt(vset(-QN_FAR), part.ta), near_each_other(part.ta, s->a, two)), vand(vlt(part.tb, vset(QN_FAR)), near_each_other(part.tb, s->b, two)));
-  s->unsure = vandnot(vor(s->unsure, vand(s->hit, vor(part.bad, tied))), part.out);
+  s->unsure = doubt(vandnot(vor(s->unsure, vand(s->hit, vor(part.bad, tied))), part.out));
   vm later = vlt(s->a, part.ta), sooner = vlt(part.tb, s->b);
   s->a = vpick(later, part.ta, s->a), s->pa = vpick(later, part.pa, s->pa);
   s->b = vpick(sooner, part.tb, s->b), s->pb = vpick(sooner, part.pb, s->pb);

@@ -123,6 +123,9 @@ QN_INLINE stretch piece_solve(const walk *w, const qn_piece_head *head, const pi
 
 /* Takes note of the errors of a stretch's ends, where it has ends. */
 QN_INLINE void note_errors(walk *w, int g, vd error, vm hit) {
+  if (!CHECKED) {
+    return;
+  }
   double *tolerance = w->tolerance + g * QN_W;
   vstore(tolerance, vmax(vload(tolerance), vpick(hit, vmul(error, vset(2)), vset(0))));
 }
