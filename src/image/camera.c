@@ -131,7 +131,8 @@ void qn_frustum_share(const qn_frustum *f, int tiles, qn_packet *out) {
     out->from[lane] = f->near, out->to[lane] = INFINITY;
     out->on[lane] = QUOIN_NO_SURFACE;
   }
-  out->few = 0;
+  out->few = QN_MANY_LANES;
+  out->any = out->kept_ranges = 0;
   out->new_origins = out->new_directions = 1;
   out->tile = !tiles ? QN_TILE_NONE : f->orthographic ? QN_TILE_ORIGINS : QN_TILE_DIRECTIONS;
 }

@@ -1,8 +1,7 @@
 /* Samples of the picture, a packet at a time: 64 camera rays, then for each lamp the shadow rays of those that it may light.
 
-   What is hidden: a shadow ray's first boundary inside its range hides the lamp. A boundary that is left at t = 0 exactly is
-   the hit's own surface, touched from outside, and hides nothing. No shadow ray is sent to a lamp behind the surface, nor to
-   a headlight.
+   What is hidden: a lamp is, when the shadow ray to it is inside the solid anywhere. (At its start it may touch the hit's own surface from outside, which hides
+   nothing.) No shadow ray is sent to a lamp behind the surface, nor to a headlight.
 
    A wall seen from inside the solid (the eye or the near plane is in it) is shown with its normal turned to the viewer and
    takes the light of every lamp on that side, without shadows: the solid around it would make all of them dark. */
@@ -82,12 +81,8 @@ void qn_tracer_free(const quoin_scene *scene, qn_tracer *tracer) {
   }
 }
 
-/* The first boundaries of a packet, which may be too spread out to go as one unless it is known to be narrow. */
-static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, unsigned want, qn_seen seen[QN_LANES], uint64_t *met) {
-  if (narrow || t->shade->together(p, p->live)) {
-    return qn_look_packet(t->work, p, want, seen, met);
-  }
-  unsigned lane_of[QN_LANES];
+/* The live rays of a packet one behind another in t->alone; returns how many. */
+static size_t list_rays(qn_tracer *t, const qn_packet *p, unsigned lane_of[QN_LANES]) {
   size_t n = 0;
   for (uint64_t m = p->live; m; m &= m - 1) {
     const unsigned lane = qn_trailing_zeros(m);
@@ -95,13 +90,48 @@ static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, unsigned want, 
     t->alone_on[n] = p->on[lane];
     lane_of[n++] = lane;
   }
-  const quoin_status status = qn_look(t->work, n, t->alone, t->alone_on, want, t->alone_seen);
+  return n;
+}
+
+/* The first boundaries of camera rays, which may be too spread out to go as one packet unless they are known to be narrow. */
+static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, qn_seen seen[QN_LANES], uint64_t *met) {
+  if (narrow || t->shade->together(p, p->live)) {
+    return qn_look_packet(t->work, p, QN_LOOK_T | QN_LOOK_MATERIAL, seen, met);
+  }
+  unsigned lane_of[QN_LANES];
+  const size_t n = list_rays(t, p, lane_of);
+  const quoin_status status = qn_look(t->work, n, t->alone, t->alone_on, QN_LOOK_T | QN_LOOK_MATERIAL, t->alone_seen);
   *met = 0;
   for (size_t i = 0; i < n; i++) {
     seen[lane_of[i]] = t->alone_seen[i];
     *met |= (uint64_t)(t->alone_seen[i].surface != QUOIN_NO_SURFACE) << lane_of[i];
   }
-  p->new_origins = p->new_directions = 1; /* nothing was derived of them */
+  return status;
+}
+
+/* The shadow rays that are inside the solid anywhere. */
+static quoin_status look_blocked(qn_tracer *t, qn_packet *p, int narrow, uint64_t *blocked) {
+  uint8_t is_blocked[QN_LANES];
+  quoin_status status = QUOIN_OK;
+  *blocked = 0;
+  if (narrow || t->shade->together(p, p->live)) {
+    qn_packet_hits hits;
+    qn_look_run(t->work, p, &hits);
+    *blocked = hits.found;
+    for (uint64_t m = hits.unsure; m && status == QUOIN_OK; m &= m - 1) {
+      const unsigned lane = qn_trailing_zeros(m);
+      const quoin_ray ray = {{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
+      status = qn_look_woven_blocked(t->work, &ray, is_blocked);
+      *blocked |= (uint64_t)(status == QUOIN_OK && is_blocked[0]) << lane;
+    }
+    return status;
+  }
+  unsigned lane_of[QN_LANES];
+  const size_t n = list_rays(t, p, lane_of);
+  status = qn_look_blocked(t->work, n, t->alone, t->alone_on, is_blocked);
+  for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
+    *blocked |= (uint64_t)(is_blocked[i] != 0) << lane_of[i];
+  }
   return status;
 }
 
@@ -148,29 +178,27 @@ static quoin_status cast_shadows(const qn_lamp *lamp, qn_tracer *t, const qn_pac
     shadows->on[lane] = t->spots.surface[lane];
   }
   shadows->live = live;
-  shadows->few = 0;
+  shadows->few = QN_MANY_LANES;
+  shadows->any = 1;
   shadows->tile = QN_TILE_NONE;
-  shadows->new_origins = 1, shadows->new_directions = !same_directions;
-  uint64_t met;
-  const quoin_status status = look(t, shadows, lamp->directional, QN_LOOK_ANY, t->shadow_seen, &met);
+  shadows->new_origins = 1, shadows->new_directions = !same_directions, shadows->kept_ranges = 0;
+  uint64_t blocked;
+  const quoin_status status = look_blocked(t, shadows, lamp->directional, &blocked);
   t->shadows_of = lamp->directional ? lamp : NULL;
   t->shadow_ray_count += (uint64_t)__builtin_popcountll(live);
-  for (uint64_t m = met; m; m &= m - 1) {
-    const unsigned lane = qn_trailing_zeros(m);
-    const qn_seen *seen = &t->shadow_seen[lane];
-    *lit &= ~((uint64_t)!(seen->leaving && seen->t == 0) << lane);
-  }
+  *lit = live & ~blocked;
   return status;
 }
 
 quoin_status qn_trace(const qn_picture *p, qn_tracer *t, qn_packet *rays) {
   uint64_t hits;
-  quoin_status status = look(t, rays, p->narrow, QN_LOOK_T | QN_LOOK_MATERIAL, t->seen, &hits);
+  quoin_status status = look(t, rays, p->narrow, t->seen, &hits);
   t->camera_rays += (uint64_t)__builtin_popcountll(rays->live);
   t->hits = hits;
   t->hit_count += (uint64_t)__builtin_popcountll(hits);
   rays->new_origins = rays->new_origins && (p->frustum.orthographic || !p->narrow); /* what all rays share has been seen */
   rays->new_directions = rays->new_directions && (!p->frustum.orthographic || !p->narrow);
+  rays->kept_ranges = p->narrow;
   if (status != QUOIN_OK) {
     return status;
   }

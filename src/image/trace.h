@@ -31,7 +31,7 @@ typedef struct qn_tracer {
   qn_packet samples;  /* camera rays one by one */
   qn_packet shadows;
   qn_spots spots;
-  qn_seen seen[QN_LANES], shadow_seen[QN_LANES];
+  qn_seen seen[QN_LANES];
   quoin_ray alone[QN_LANES]; /* of packets that are too spread out */
   uint32_t alone_on[QN_LANES];
   qn_seen alone_seen[QN_LANES];

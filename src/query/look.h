@@ -32,6 +32,9 @@ quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, un
 /* Whether each ray is inside the solid anywhere in its range: blocked[i] is 1 or 0. */
 quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked);
 
+/* One ray of them by the woven path: for a lane that a packet with `any` (wide/packet.h) has given up. */
+quoin_status qn_look_woven_blocked(quoin_work *work, const quoin_ray *ray, uint8_t *blocked);
+
 /* The same for lanes that are in a packet already. *met: the lanes that meet a boundary; the others' entries are not set. */
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met);
 

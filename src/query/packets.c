@@ -324,8 +324,7 @@ quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, un
   return status;
 }
 
-/* One lane by the woven path. */
-static quoin_status weave_blocked(quoin_work *work, const quoin_ray *ray, uint8_t *blocked) {
+quoin_status qn_look_woven_blocked(quoin_work *work, const quoin_ray *ray, uint8_t *blocked) {
   qn_query_begin(work);
   qn_line line;
   qn_line_from_doubles(ray->o, ray->d, &line);
@@ -352,7 +351,7 @@ quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, 
         const unsigned lane = lane_for(way, i);
         blocked[at + i] = hits.found >> lane & 1;
         if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
-          status = weave_blocked(work, &rays[at + i], &blocked[at + i]);
+          status = qn_look_woven_blocked(work, &rays[at + i], &blocked[at + i]);
         }
       }
     }
