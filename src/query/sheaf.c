@@ -13,7 +13,7 @@
 #include <string.h>
 
 typedef qn_sheaf_event event;
-enum { FEW_SLOTS = 24, SLOTS_AT_FIRST = 30, MOST_SLOTS = 1 << 12 };
+enum { FEW_SLOTS = QN_SHEAF_FEW, RUN = 48, SLOTS_AT_FIRST = 30, MOST_SLOTS = 1 << 12 };
 #define SAME_PLACE (QN_SPAN_LARGER | 0xffffffffu)
 
 /* --- room ------------------------------------------------------------------------------------------------------------ */
@@ -48,6 +48,7 @@ static int make(quoin_work *work) {
   }
   memset(work->sheaf, 0, sizeof *work->sheaf);
   work->sheaf->count = qn_alloc(work->mem, program->gate_count * sizeof *work->sheaf->count);
+  work->sheaf->deep = program->paths ? qn_scratch_eval(work->scratch) : NULL;
   if (!work->sheaf->count || !room_for_slots(work, SLOTS_AT_FIRST)) {
     qn_sheaf_free(work);
     return 0;
@@ -100,10 +101,69 @@ static void merge_runs(event *e, event *spare, size_t n, size_t width) {
   }
 }
 
+QN_INLINE uint64_t name_at(const double *payload, uint32_t slot, uint64_t enters) {
+  uint64_t v;
+  memcpy(&v, payload, 8);
+  return (v & SAME_PLACE) | (uint64_t)slot << 32 | enters;
+}
+
+/* Slots by where their stretches begin in the first of their lanes: nearly the order of all lanes of the group. */
+static void order_slots(qn_sheaf *s, unsigned width, unsigned g) {
+  const qn_span_slot *slot = s->spans.slots + (size_t)g * s->spans.capacity;
+  const double *ends = s->spans.ends + (size_t)g * s->spans.capacity * 4 * width;
+  double key[FEW_SLOTS];
+  for (uint32_t k = 0; k < s->spans.count[g]; k++, ends += 4 * (size_t)width) {
+    double t = ends[qn_trailing_zeros(slot[k].hit)];
+    uint32_t j = k;
+    for (; j > 0 && key[j - 1] > t; j--) {
+      key[j] = key[j - 1], s->order[j] = s->order[j - 1];
+    }
+    key[j] = t, s->order[j] = (uint8_t)k;
+  }
+}
+
+/* A stretch that lies well within the one before it, of a leaf that settles the gate of both, is left out: nothing changes there. */
+static size_t gather_few(qn_sheaf *s, unsigned width, unsigned lane) {
+  const unsigned g = lane / width, i = lane % width;
+  const qn_span_slot *slot = s->spans.slots + (size_t)g * s->spans.capacity;
+  const double *ends = s->spans.ends + (size_t)g * s->spans.capacity * 4 * width + i, tolerance = s->spans.tolerance[lane];
+  const uint32_t slots = s->spans.count[g];
+  event begins[FEW_SLOTS]; /* of stretches; name: the slot */
+  size_t count = 0, n = 0;
+  for (uint32_t j = 0; j < slots; j++) {
+    const uint32_t k = s->order[j];
+    if (slot[k].hit >> i & 1) {
+      count = insert(begins, count, ends[4 * (size_t)width * k], k);
+    }
+  }
+  double a = 0, b = -HUGE_VAL;
+  uint32_t gate = QN_NO_GATE;
+  for (size_t j = 0; j < count; j++) {
+    const uint32_t k = (uint32_t)begins[j].name;
+    const double *at = ends + 4 * (size_t)width * k, enter = begins[j].t, leave = at[width];
+    if ((slot[k].gate == gate) & (enter - a > tolerance) & (b - leave > tolerance)) {
+      continue;
+    }
+    n = insert(s->events, n, enter, name_at(at + 2 * width, k, QN_SHEAF_ENTERS));
+    n = insert(s->events, n, leave, name_at(at + 3 * width, k, 0));
+    if (slot[k].settles && !(slot[k].gate == gate && leave < b)) {
+      gate = slot[k].gate, a = enter, b = leave;
+    }
+  }
+  return n;
+}
+
 /* The lane's ends into s->events, sorted; how many. */
 static size_t gather(qn_sheaf *s, unsigned width, unsigned lane) {
   const unsigned g = lane / width, i = lane % width;
   const uint32_t slots = s->spans.count[g];
+  if (slots <= FEW_SLOTS) {
+    if (s->ordered != g) {
+      order_slots(s, width, g);
+      s->ordered = g;
+    }
+    return gather_few(s, width, lane);
+  }
   const qn_span_slot *slot = s->spans.slots + (size_t)g * s->spans.capacity;
   const double *ends = s->spans.ends + (size_t)g * s->spans.capacity * 4 * width + i;
   event *e = s->events;
@@ -112,32 +172,42 @@ static size_t gather(qn_sheaf *s, unsigned width, unsigned lane) {
     if (!(slot[k].hit >> i & 1)) {
       continue;
     }
-    uint64_t enter, leave;
-    memcpy(&enter, ends + 2 * width, 8), memcpy(&leave, ends + 3 * width, 8);
-    const uint64_t who = (uint64_t)slot[k].leaf << 32;
-    n = run + insert(e + run, n - run, ends[0], (enter & SAME_PLACE) | who | QN_SHEAF_ENTERS);
-    n = run + insert(e + run, n - run, ends[width], (leave & SAME_PLACE) | who);
-    run = n - run >= 2 * FEW_SLOTS ? n : run;
+    n = run + insert(e + run, n - run, ends[0], name_at(ends + 2 * width, k, QN_SHEAF_ENTERS));
+    n = run + insert(e + run, n - run, ends[width], name_at(ends + 3 * width, k, 0));
+    run = n - run >= RUN ? n : run;
   }
   if (run) {
-    merge_runs(e, s->sorting, n, 2 * FEW_SLOTS);
+    merge_runs(e, s->sorting, n, RUN);
   }
   return n;
 }
 
 /* --- the weave of a lane ------------------------------------------------------------------------------------------------ */
 
+/* A lane on its way through its ends. */
+typedef struct lane_walk {
+  const quoin_scene *scene;
+  qn_sheaf *sheaf;
+  const qn_span_slot *slots; /* of its group */
+  double from, to, tolerance;
+  unsigned lane;
+  int sure;
+  double open_t; uint64_t open;
+} lane_walk;
+
+QN_INLINE const qn_span_slot *slot_of(const lane_walk *w, uint64_t name) { return &w->slots[name >> 32 & QN_SPAN_LEAF]; }
+
 /* A leaf is entered or left: whether the solid's value changes. */
-QN_INLINE int change(const quoin_scene *scene, qn_sheaf *sheaf, uint64_t name) {
-  const qn_leaf *leaf = &scene->leaves[name >> 32 & QN_SPAN_LEAF];
-  const qn_gate *gates = scene->program.gates;
-  const int up = (name >> 63 != 0) != leaf->negated;
-  if (QN_UNLIKELY(sheaf->deep != NULL)) {
-    int was = sheaf->deep->value;
-    return qn_eval_change(sheaf->deep, leaf->gate, up ? 1 : -1) != was;
+QN_INLINE int change(const lane_walk *w, uint64_t name) {
+  const qn_span_slot *slot = slot_of(w, name);
+  const int up = (name >> 63 != 0) != slot->negated;
+  if (QN_UNLIKELY(w->sheaf->deep != NULL)) {
+    int was = w->sheaf->deep->value;
+    return qn_eval_change(w->sheaf->deep, slot->gate, up ? 1 : -1) != was;
   }
-  uint32_t *count = sheaf->count;
-  for (uint32_t g = leaf->gate;; g = gates[g].parent) {
+  const qn_gate *gates = w->scene->program.gates;
+  uint32_t *count = w->sheaf->count;
+  for (uint32_t g = slot->gate;; g = gates[g].parent) {
     uint32_t before = count[g], after = up ? before + 1 : before - 1;
     count[g] = after;
     if ((before >= gates[g].need) == (after >= gates[g].need)) {
@@ -151,18 +221,18 @@ QN_INLINE int change(const quoin_scene *scene, qn_sheaf *sheaf, uint64_t name) {
 
 /* The ends e[0] to e[n - 1] lie at one place: put into the order of the leaves, and made. Returns whether the value is another afterwards; *last is then
    the end that is named. */
-static int change_group(const quoin_scene *scene, qn_sheaf *sheaf, event *e, size_t n, uint64_t *last) {
+static int change_group(const lane_walk *w, event *e, size_t n, uint64_t *last) {
   int flips = 0;
   for (size_t i = 1; i < n; i++) {
     event x = e[i];
     size_t j = i;
-    for (; j > 0 && (e[j - 1].name >> 32 & QN_SPAN_LEAF) > (x.name >> 32 & QN_SPAN_LEAF); j--) {
+    for (; j > 0 && slot_of(w, e[j - 1].name)->leaf > slot_of(w, x.name)->leaf; j--) {
       e[j] = e[j - 1];
     }
     e[j] = x;
   }
   for (size_t i = 0; i < n; i++) {
-    if (change(scene, sheaf, e[i].name)) {
+    if (change(w, e[i].name)) {
       flips++;
       *last = e[i].name;
     }
@@ -170,13 +240,13 @@ static int change_group(const quoin_scene *scene, qn_sheaf *sheaf, event *e, siz
   return flips & 1;
 }
 
-static quoin_end end_of(const quoin_scene *scene, double t, uint64_t name) {
+static quoin_end end_of(const lane_walk *w, double t, uint64_t name) {
   if (name == QN_SHEAF_CUT) {
     return (quoin_end){t == 0 ? 0 : t, QUOIN_NO_PART, QUOIN_BODY};
   }
-  const uint32_t part = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
-  const qn_leaf *leaf = &scene->leaves[part];
-  const qn_half *half = &scene->halves[leaf->half0];
+  const uint32_t part = slot_of(w, name)->leaf;
+  const qn_leaf *leaf = &w->scene->leaves[part];
+  const qn_half *half = &w->scene->halves[leaf->half0];
   for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
     half++;
   }
@@ -194,15 +264,6 @@ static int in_box(const qn_sheaf *s, const quoin_scene *scene, unsigned lane, do
   }
   return 1;
 }
-
-typedef struct lane_walk {
-  const quoin_scene *scene;
-  qn_sheaf *sheaf;
-  double from, to, tolerance;
-  unsigned lane;
-  int sure;
-  double open_t; uint64_t open;
-} lane_walk;
 
 /* The value changes back: a stretch from what is open to t, cut to the range. There is room for it. */
 QN_INLINE void add(lane_walk *w, double t, uint64_t name) {
@@ -225,7 +286,7 @@ QN_INLINE void add(lane_walk *w, double t, uint64_t name) {
     w->sure &= in_box(s, w->scene, w->lane, a) && in_box(s, w->scene, w->lane, b);
   }
   s->names[2 * s->found_count] = pa, s->names[2 * s->found_count + 1] = pb;
-  s->found[s->found_count++] = (quoin_interval){end_of(w->scene, a, pa), end_of(w->scene, b, pb)};
+  s->found[s->found_count++] = (quoin_interval){end_of(w, a, pa), end_of(w, b, pb)};
 }
 
 /* Whether the sorted ends' order is certain; ends at one place come in a row. */
@@ -244,14 +305,14 @@ static int weave(quoin_work *work, unsigned lane) {
   const quoin_scene *scene = work->scene;
   const size_t n = gather(s, work->wide->width, lane);
   event *e = s->events;
-  lane_walk w = {scene, s, s->packet.from[lane], s->packet.to[lane], s->spans.tolerance[lane], lane, 1, -HUGE_VAL, QN_SHEAF_CUT};
+  lane_walk w = {scene, s, s->spans.slots + (size_t)(lane / work->wide->width) * s->spans.capacity, s->packet.from[lane], s->packet.to[lane], s->spans.tolerance[lane], lane, 1, -HUGE_VAL, QN_SHEAF_CUT};
   if (!in_order(e, n, w.tolerance)) {
     return 0;
   }
   int value = scene->program.base;
   size_t i = 0;
   for (; i < n && e[i].t == -QN_SPAN_FAR; i++) {
-    value ^= change(scene, s, e[i].name);
+    value ^= change(&w, e[i].name);
   }
   for (size_t end; i < n && e[i].t != QN_SPAN_FAR; i = end) {
     uint64_t name = e[i].name;
@@ -262,9 +323,9 @@ static int weave(quoin_work *work, unsigned lane) {
       while (end < n && !(e[end].t - e[end - 1].t > w.tolerance)) {
         end++;
       }
-      other = change_group(scene, s, e + i, end - i, &name);
+      other = change_group(&w, e + i, end - i, &name);
     } else {
-      other = change(scene, s, name);
+      other = change(&w, name);
     }
     if (other) {
       if (value) {
@@ -279,7 +340,7 @@ static int weave(quoin_work *work, unsigned lane) {
     add(&w, HUGE_VAL, QN_SHEAF_CUT);
   }
   for (; i < n; i++) { /* back to rest */
-    change(scene, s, e[i].name);
+    change(&w, e[i].name);
   }
   return w.sure;
 }
@@ -402,7 +463,7 @@ quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, do
   if (!qn_grow(work->mem, &s->events, &s->event_capacity, 2 * (size_t)most) || !qn_grow(work->mem, &s->sorting, &s->sorting_capacity, 2 * (size_t)most)) {
     return QUOIN_E_MEMORY;
   }
-  s->found_count = 0;
+  s->found_count = 0, s->ordered = UINT32_MAX;
   for (unsigned lane = 0; lane < n; lane++) {
     const size_t began = s->found_count, room = began + most + 1; /* a stretch for every second end, and one more */
     s->first[lane] = (uint32_t)began;

@@ -7,14 +7,18 @@
 /* What a place is made of, for who rounds it: a payload of wide/packet.h, or QN_SHEAF_CUT where the ray is cut or infinite. */
 #define QN_SHEAF_CUT UINT64_MAX
 
-typedef struct qn_sheaf_event { double t; uint64_t name; } qn_sheaf_event; /* name: a payload, and QN_SHEAF_ENTERS */
+typedef struct qn_sheaf_event { double t; uint64_t name; } qn_sheaf_event; /* name: a payload with the slot in the leaf's place, and QN_SHEAF_ENTERS */
 #define QN_SHEAF_ENTERS ((uint64_t)1 << 63)
+
+enum { QN_SHEAF_FEW = 64 }; /* slots of a group that are sorted as one */
 
 struct qn_sheaf {
   qn_packet packet;
   qn_packet_spans spans;
   uint32_t *count;       /* by gate: true children; at rest (every leaf outside) between lanes */
-  qn_eval *deep;         /* of a program with paths, instead of count; at rest likewise */
+  qn_eval *deep;         /* instead of count, in a deep program; likewise */
+  uint8_t order[QN_SHEAF_FEW];
+  uint32_t ordered;      /* the group whose slots `order` is of */
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
   uint64_t *names;       size_t name_capacity; /* two for each of found */

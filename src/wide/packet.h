@@ -72,10 +72,13 @@ typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet
 /* The same for the first lane alone, which is found: whether *t is certainly the nearest. */
 typedef int (*qn_round_one_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, double *t, uint64_t *made);
 
-/* Every stretch of each lane in each leaf that it meets: for whoever merges them (query/spans.h). Lanes lie in groups of `width`; slot s of
+/* Every stretch of each lane in each leaf that it meets: for whoever merges them (query/sheaf.h). Lanes lie in groups of `width`; slot s of
    group g holds one leaf's stretches, four times `width` doubles from ends + ((g capacity + s) 4 width): where they begin, where they
    end, and the payloads of both (below). An end that is not there lies at -QN_SPAN_FAR or QN_SPAN_FAR, its payload means nothing. */
-typedef struct qn_span_slot { uint32_t leaf, hit; } qn_span_slot; /* hit: the lanes of the group that meet the leaf */
+typedef struct qn_span_slot {
+  uint32_t leaf, gate;
+  uint8_t negated, settles, hit; /* settles: in the leaf the gate has its value whatever the others do; hit: the lanes of the group that meet the leaf */
+} qn_span_slot;
 typedef struct qn_packet_spans {
   double *ends;          /* aligned to 64 */
   qn_span_slot *slots;   /* slot s of group g is slots[g capacity + s] */

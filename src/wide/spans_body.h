@@ -10,6 +10,8 @@
 _Static_assert(QN_SPAN_LARGER == QN_LARGER_ROOT && QN_SPAN_LEAF == QN_LEAF_BITS, "packet.h tells what payloads are");
 
 QN_INLINE void leaf_spans_of(walk *w, qn_piece_kind kind, const qn_piece_head *head, uint64_t mask, qn_packet_spans *out) {
+  const qn_leaf *leaf = &w->scene->leaves[head->leaf];
+  const qn_span_slot found = {head->leaf, leaf->gate, leaf->negated, leaf->negated == w->scene->program.gates[leaf->gate].is_and, 0};
   piece_constants k;
   if (kind == QN_PIECE_SPHERE) {
     sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k.sphere);
@@ -39,7 +41,7 @@ QN_INLINE void leaf_spans_of(walk *w, qn_piece_kind kind, const qn_piece_head *h
     size_t slot = (size_t)g * out->capacity + out->count[g]++;
     double *v = out->ends + slot * 4 * QN_W;
     vstore(v, s.a), vstore(v + QN_W, s.b), vstore(v + 2 * QN_W, s.pa), vstore(v + 3 * QN_W, s.pb);
-    out->slots[slot] = (qn_span_slot){head->leaf, bits};
+    out->slots[slot] = found, out->slots[slot].hit = (uint8_t)bits;
   }
 }
 
