@@ -63,7 +63,7 @@ static void put_end(const context *c, const quoin_end *end, cli_text *text) {
 }
 
 static void put_stretches(const context *c, size_t count, const quoin_interval *stretches, cli_text *text) {
-  cli_putf(text, "%zu", count);
+  cli_put_number(text, (double)count); /* some hundreds at most, and as %zu below 10^17 */
   for (size_t i = 0; i < count; i++) {
     put_end(c, &stretches[i].enter, text);
     put_end(c, &stretches[i].leave, text);

@@ -56,7 +56,6 @@ static int make(quoin_work *work) {
   for (size_t i = 0; i < program->gate_count; i++) {
     work->sheaf->count[i] = program->gates[i].base;
   }
-  work->sheaf->deep = program->paths ? qn_scratch_eval(work->scratch) : NULL;
   return 1;
 }
 

@@ -16,7 +16,8 @@
 static const char USAGE[] =
     "usage: bench_scenes MODEL.csg CAMERA [options]\n"
     "  --paths A,B     only these (single rows tiles grid-t grid intervals-single intervals intervals-exact shadow-single shadow\n"
-    "                  random-single random spots-single spots random-spots-single random-spots blocked-single blocked points-single points);\n"
+    "                  random-single random random-all-single random-all spots-single spots random-spots-single random-spots\n"
+    "                  blocked-single blocked points-single points);\n"
     "                  default all\n"
     "  --size N        the grid is N x N; default the camera file's\n"
     "  --seconds S     time for each path and round; default 0.3\n"

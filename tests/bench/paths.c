@@ -241,6 +241,20 @@ static size_t block_blocked_single(const path_job *job, path_lane *lane, size_t 
 static size_t block_blocked(const path_job *job, path_lane *lane, size_t block) {
   return asked_blocked(job, lane, listed(job->lists.shadow, job->lists.shadow_count, block, lane), BLOCK);
 }
+static size_t block_random_intervals(const path_job *job, path_lane *lane, size_t block) {
+  size_t n = listed(job->lists.random, job->lists.random_count, block, lane);
+  fail(lane, quoin_ray_intervals_many(job->scene, lane->work, n, lane->asked, 0, each_answer, lane));
+  return n;
+}
+static size_t block_random_intervals_single(const path_job *job, path_lane *lane, size_t block) {
+  size_t n = listed(job->lists.random, job->lists.random_count, block, lane);
+  for (size_t k = 0; k < n; k++) {
+    quoin_intervals answer;
+    fail(lane, quoin_ray_intervals(job->scene, lane->work, &lane->asked[k], 0, &answer));
+    each_answer(lane, k, &answer);
+  }
+  return n;
+}
 
 /* A block of the grid by the grid's own call. */
 static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsigned want) {
@@ -312,6 +326,8 @@ const path PATHS[] = {
   {"random-spots", "the same as arrays", RAYS_RANDOM, ASK_SPOTS, block_random_spots, 0},
   {"blocked-single", "whether the shadow rays are blocked, one by one", RAYS_SHADOW, ASK_BLOCKED, block_blocked_single, 0},
   {"blocked", "the same as an array of 4096", RAYS_SHADOW, ASK_BLOCKED, block_blocked, 0},
+  {"random-all-single", "all intervals, incoherent rays, one by one", RAYS_RANDOM, ASK_INTERVALS, block_random_intervals_single, 0},
+  {"random-all", "the same as arrays", RAYS_RANDOM, ASK_INTERVALS, block_random_intervals, 0},
   {"points-single", "sides of points, one by one", RAYS_POINTS, ASK_SIDES, block_points_single, 0},
   {"points", "the same as arrays", RAYS_POINTS, ASK_SIDES, block_points, 0},
 };

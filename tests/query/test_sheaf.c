@@ -261,6 +261,55 @@ static void long_rays(void **state) {
   assert_int_equal(failures, 0);
 }
 
+/* A program so deep that it is walked along paths: 60 levels that add and take away in turn, many of them flush. */
+static void deep_program(void **state) {
+  (void)state;
+  static char text[20000];
+  size_t at = 0;
+  for (int i = 0; i < 60; i++) {
+    at += (size_t)snprintf(text + at, sizeof text - at, "%s() {\n", i % 2 ? "union" : "difference");
+    if (i % 2) {
+      at += (size_t)snprintf(text + at, sizeof text - at, "translate([%d,0,0]) cube([0.5,2,2]);\n", i);
+    } else {
+      at += (size_t)snprintf(text + at, sizeof text - at, "cube([%d.5,2,%s]);\n", 61 - i, i % 4 ? "2" : "1");
+    }
+  }
+  at += (size_t)snprintf(text + at, sizeof text - at, "sphere(1);\n");
+  for (int i = 60; i-- > 0;) {
+    if (i % 2 == 0) {
+      at += (size_t)snprintf(text + at, sizeof text - at, "translate([%d,0,0]) cylinder(r=0.25,h=2);\n", i);
+    }
+    at += (size_t)snprintf(text + at, sizeof text - at, "}\n");
+  }
+  ask a;
+  ask_open(&a, text);
+  assert_non_null(a.scene->program.paths);
+  quoin_ray rays[QN_LANES];
+  size_t stretches = 0;
+  for (int i = 0; i < QN_LANES; i++) {
+    rays[i] = (quoin_ray){{-5, 0.011 * i + 0.01, 0.02}, {1, 0.0001 * i, 0.01}, -HUGE_VAL, i % 5 ? HUGE_VAL : 30.25};
+    weave_ray(&a, &rays[i], &want[i]);
+    stretches += want[i].count;
+  }
+  assert_true(stretches > 200);
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    for (int pass = 0; pass < 2; pass++) { /* the second begins where the first left the program */
+      asked q = {"deep\n", isas[k], 0, 0, rays, want, 0};
+      assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+    }
+    uint64_t sure;
+    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, NULL, NULL, NULL, &sure), QUOIN_OK);
+    assert_true(__builtin_popcountll(sure) > 50);
+    quoin_work_free(work);
+  }
+  ask_close(&a);
+  assert_int_equal(failures, 0);
+}
+
 /* What the call refuses, and when: answers before a wrong ray are given. */
 static void wrong_rays(void **state) {
   (void)state;
@@ -306,6 +355,6 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_isas();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
