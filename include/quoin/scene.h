@@ -35,6 +35,10 @@ typedef struct quoin_scene_info {
   double box_min[3], box_max[3]; /* holds the solid; infinite where unbounded. A leaf's box is exact, rounded outward, where its frame lies along
                                     the axes and its sizes are rational, else tight to the last bits; a tree's is the boxes' combination */
   size_t memory;            /* bytes held */
+  size_t dropped;           /* primitives that were not kept: nothing depends on them */
+  size_t gates;             /* of the program: unions and intersections after flattening */
+  size_t terms, copies;     /* of the normal form that packets walk: terms, and leaves in them beyond one of each; 0: there is none */
+  size_t shared;            /* unions that are in several terms, uncopied, since copies had run out */
 } quoin_scene_info;
 QUOIN_API void quoin_scene_get_info(const quoin_scene *scene, quoin_scene_info *out);
 
@@ -87,10 +91,11 @@ QUOIN_API void quoin_work_free(quoin_work *work);
 
 /* What was done and what was skipped, summed since the work was made. */
 typedef struct quoin_stats {
-  uint64_t rays, points;
+  uint64_t rays, points;   /* answered */
+  uint64_t packets;        /* runs of rays that were walked together, or one ray by the same code */
   uint64_t nodes;          /* hierarchy nodes visited */
-  uint64_t leaves;         /* leaves solved */
-  uint64_t filter_sure;    /* decisions certified by doubles */
+  uint64_t leaves;         /* leaves solved: in a packet, once for each of its vectors */
+  uint64_t filter_sure;    /* half-spaces along a ray of the exact path that doubles certified; in packets all are, or the ray is one of exact_rays */
   uint64_t exact_signs;    /* signs taken in exact arithmetic */
   uint64_t exact_orders;   /* orders of two roots taken in exact arithmetic */
   uint64_t exact_rays;     /* rays answered whole by the exact path */

@@ -1,5 +1,6 @@
 #include "cli/batch.h"
 #include "cli/say.h"
+#include "cli/stats.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -68,12 +69,16 @@ quoin_work *cli_batch_work(cli_batch *batch, unsigned thread) {
   return batch->works[thread];
 }
 
-void cli_batch_stats(const cli_batch *batch) {
+static void say_stats(const cli_batch *batch, const cli_loaded *loaded, double seconds) {
+  cli_stats stats = {.json = batch->json};
   quoin_stats sum = {0};
-  for (unsigned i = 0; i < batch->threads; i++) {
+  for (unsigned i = 0; batch->works && i < batch->threads; i++) {
     cli_add_work_stats(batch->works[i], &sum);
   }
-  cli_say_work_stats(&sum);
+  cli_stats_load(&stats, loaded);
+  cli_stats_seconds(&stats, "answer_seconds", seconds);
+  cli_stats_work(&stats, &sum);
+  cli_stats_say(&stats);
 }
 
 void cli_batch_free(cli_batch *batch) {
@@ -487,9 +492,7 @@ int cli_batch_run(cli_batch *batch, const cli_command *command, const cli_common
       code = from_arguments ? cli_batch_arguments(batch, &out) : cli_batch_lines(batch, source, &out);
     }
     if (common->stats) {
-      cli_say_load_stats(&loaded);
-      fprintf(stderr, "answer_seconds %.6f\n", cli_clock() - start);
-      cli_batch_stats(batch);
+      say_stats(batch, &loaded, cli_clock() - start);
     }
     cli_batch_free(batch);
   }

@@ -20,6 +20,7 @@ typedef struct cli_batch {
      all of them, or fewer (at least one) where it likes to be called again for the others, or those before the row that the status is about. */
   quoin_status (*answer_many)(void *user, unsigned thread, quoin_work *work, size_t n, const char *const *numbers, cli_text *text, size_t *done);
   void *user;
+  int json; /* statistics are printed so */
   quoin_work **works; /* made as they are needed */
   unsigned threads;
 } cli_batch;
@@ -33,7 +34,6 @@ int cli_batch_arguments(cli_batch *batch, cli_out *out);
 /* The lines of a file, or of standard input when path is "-". Whenever the input makes one wait, everything that has
    come is answered and written. */
 int cli_batch_lines(cli_batch *batch, const char *path, cli_out *out);
-void cli_batch_stats(const cli_batch *batch);
 void cli_batch_free(cli_batch *batch);
 
 /* The whole of a command that asks questions: rows from the operands if there are any, else from `input` (null:

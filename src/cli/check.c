@@ -3,6 +3,7 @@
 #include "cli/load.h"
 #include "cli/out.h"
 #include "cli/say.h"
+#include "cli/stats.h"
 
 #include <errno.h>
 #include <math.h>
@@ -250,7 +251,9 @@ static int run(const cli_command *self, int argc, char **argv) {
     }
   }
   if (common.stats) {
-    cli_say_load_stats(&loaded);
+    cli_stats stats = {.json = asked.json};
+    cli_stats_load(&stats, &loaded);
+    cli_stats_say(&stats);
   }
   quoin_near_free(near);
   cli_unload(&loaded);

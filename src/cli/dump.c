@@ -3,6 +3,7 @@
 #include "cli/load.h"
 #include "cli/out.h"
 #include "cli/say.h"
+#include "cli/stats.h"
 
 enum { OUTPUT = CLI_OWN };
 
@@ -51,7 +52,9 @@ static int run(const cli_command *self, int argc, char **argv, int compile) {
     code = closed != CLI_OK ? closed : (int)cli_code(status);
   }
   if (common.stats) {
-    cli_say_load_stats(&loaded);
+    cli_stats stats = {.json = 0};
+    cli_stats_load(&stats, &loaded);
+    cli_stats_say(&stats);
   }
   cli_unload(&loaded);
   return code;

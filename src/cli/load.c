@@ -2,7 +2,6 @@
 #include "cli/say.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -60,37 +59,4 @@ void cli_unload(cli_loaded *loaded) {
   quoin_model_free(loaded->model);
   loaded->scene = NULL;
   loaded->model = NULL;
-}
-
-void cli_say_load_stats(const cli_loaded *loaded) {
-  fprintf(stderr, "read_seconds %.6f\n", loaded->read_seconds);
-  if (loaded->scene) {
-    quoin_scene_info info;
-    quoin_scene_get_info(loaded->scene, &info);
-    fprintf(stderr, "compile_seconds %.6f\n", loaded->compile_seconds);
-    fprintf(stderr, "scene_leaves %zu\nscene_surfaces %zu\nscene_distinct_surfaces %zu\nscene_bytes %zu\n", info.leaves, info.surfaces,
-            info.distinct_surfaces, info.memory);
-  }
-}
-
-/* The counters by name, for printing and for summing. */
-#define COUNTERS(each) \
-  each(rays) each(points) each(nodes) each(leaves) each(filter_sure) each(exact_signs) each(exact_orders) each(exact_rays) \
-    each(exact_points) each(exact_roundings) each(exact_forms)
-
-void cli_say_work_stats(const quoin_stats *stats) {
-#define SAY(counter) fprintf(stderr, #counter " %" PRIu64 "\n", stats->counter);
-  COUNTERS(SAY)
-#undef SAY
-}
-
-void cli_add_work_stats(const quoin_work *work, quoin_stats *sum) {
-  if (!work) {
-    return;
-  }
-  quoin_stats stats;
-  quoin_work_stats(work, &stats);
-#define ADD(counter) sum->counter += stats.counter;
-  COUNTERS(ADD)
-#undef ADD
 }

@@ -1,4 +1,4 @@
-/* From a MODEL operand to a compiled scene, with everything said on the way; and the figures of --stats. */
+/* From a MODEL operand to a compiled scene, with everything said on the way */
 #ifndef QN_CLI_LOAD_H
 #define QN_CLI_LOAD_H
 
@@ -22,11 +22,5 @@ quoin_status cli_read(const cli_common *common, const char *path, int compile, c
 /* The same, with all diagnostics said on standard error. Returns the exit code. */
 int cli_load(const cli_common *common, const char *path, int compile, cli_loaded *out);
 void cli_unload(cli_loaded *loaded);
-
-/* --stats: lines "name value" on standard error. */
-void cli_say_load_stats(const cli_loaded *loaded);
-void cli_say_work_stats(const quoin_stats *stats);
-/* sum += stats of work, which may be null. */
-void cli_add_work_stats(const quoin_work *work, quoin_stats *sum);
 
 #endif

@@ -136,6 +136,7 @@ static int run(const cli_command *self, int argc, char **argv) {
   if (code >= 0) {
     return code;
   }
+  c.batch.json = c.q.json;
   c.batch.answer_many = c.q.names ? NULL : answer_many;
   code = cli_batch_run(&c.batch, self, &common, c.q.input, NULL);
   return code == CLI_OK && c.q.exit_code && atomic_load(&c.q.not_inside) ? CLI_NO : code;

@@ -35,7 +35,7 @@ static int take(void *user, int id, const char *value) {
   case SURFACES: c->surfaces = 1; return 0;
   case BOUNDARY: c->want |= QUOIN_WANT_BOUNDARY; return 0;
   case CONTACTS: c->want |= QUOIN_WANT_CONTACTS; return 0;
-  case JSON: c->json = 1; return 0;
+  case JSON: c->json = c->batch.json = 1; return 0;
   default: return -1;
   }
 }

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/load.h"
 #include "cli/say.h"
+#include "cli/stats.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -161,7 +162,7 @@ static void say_nothing_seen(const job *j, const quoin_scene *scene, const char 
                              .source = ""});
 }
 
-static int render(job *j, const cli_common *common, const quoin_scene *scene, const char *path) {
+static int render(job *j, const cli_common *common, const quoin_scene *scene, const char *path, cli_stats *figures) {
   size_t row = 4 * j->options.width;
   unsigned char *pixels = malloc(row * j->options.height);
   if (!pixels) {
@@ -206,10 +207,13 @@ static int render(job *j, const cli_common *common, const quoin_scene *scene, co
   }
   free(pixels);
   if (common->stats) {
-    fprintf(stderr, "render_seconds %.6f\nwrite_seconds %.6f\n", middle - start, cli_clock() - middle);
-    fprintf(stderr, "camera_rays %llu\ncamera_hits %llu\nshadow_rays %llu\nrefined_pixels %llu\n", (unsigned long long)stats.camera_rays,
-            (unsigned long long)stats.hits, (unsigned long long)stats.shadow_rays, (unsigned long long)stats.refined_pixels);
-    cli_say_work_stats(&stats.work);
+    cli_stats_seconds(figures, "render_seconds", middle - start);
+    cli_stats_seconds(figures, "write_seconds", cli_clock() - middle);
+    cli_stats_count(figures, "camera_rays", stats.camera_rays);
+    cli_stats_count(figures, "camera_hits", stats.hits);
+    cli_stats_count(figures, "shadow_rays", stats.shadow_rays);
+    cli_stats_count(figures, "refined_pixels", stats.refined_pixels);
+    cli_stats_work(figures, &stats.work);
   }
   return code;
 }
@@ -236,12 +240,15 @@ static int run(const cli_command *self, int argc, char **argv) {
   }
   cli_loaded loaded;
   code = cli_load(&common, path, 1, &loaded);
-  if (common.stats) {
-    cli_say_load_stats(&loaded);
-  }
+  cli_stats figures = {0};
+  cli_stats_load(&figures, &loaded);
   if (code == CLI_OK) {
-    code = render(&j, &common, loaded.scene, path);
+    code = render(&j, &common, loaded.scene, path, &figures);
   }
+  if (common.stats) {
+    cli_stats_say(&figures);
+  }
+  cli_text_free(&figures.text);
   cli_unload(&loaded);
   return code;
 }

@@ -300,12 +300,14 @@ static quoin_status run_pass(rendering *r, quoin_status (*body)(void *, unsigned
 static void add_stats(quoin_stats *sum, const quoin_stats *one) {
   sum->rays += one->rays;
   sum->points += one->points;
+  sum->packets += one->packets;
   sum->nodes += one->nodes;
   sum->leaves += one->leaves;
   sum->filter_sure += one->filter_sure;
   sum->exact_signs += one->exact_signs;
   sum->exact_orders += one->exact_orders;
   sum->exact_rays += one->exact_rays;
+  sum->exact_points += one->exact_points;
   sum->exact_roundings += one->exact_roundings;
   sum->exact_forms += one->exact_forms;
 }

@@ -56,7 +56,7 @@ void quoin_work_free(quoin_work *work) {
 
 void quoin_work_stats(const quoin_work *work, quoin_stats *out) {
   const qn_counts *c = qn_scratch_counts(work->scratch);
-  *out = (quoin_stats){.rays = c->rays, .points = c->points, .exact_points = c->exact_points, .nodes = c->nodes, .leaves = c->leaves,
+  *out = (quoin_stats){.rays = c->rays, .points = c->points, .packets = c->packets, .exact_points = c->exact_points, .nodes = c->nodes, .leaves = c->leaves,
                        .filter_sure = c->filter_sure, .exact_signs = c->exact_signs, .exact_orders = c->exact_orders,
                        .exact_rays = c->exact_rays, .exact_roundings = c->exact_roundings, .exact_forms = c->exact_forms};
 }

@@ -114,6 +114,7 @@ static quoin_status make_leaves(qn_building *b) {
   qn_free(b->mem, b->visits, b->visit_room * sizeof *b->visits);
   qn_free(b->mem, b->terms, b->term_capacity * sizeof *b->terms);
   if (status == QUOIN_OK) {
+    s->dropped = b->visit_count - s->leaf_count;
     const qn_gate *root = &s->program.gates[0];
     s->empty = root->kids == 0 && !root->is_and;
   }

@@ -8,7 +8,12 @@ QUOIN_API void quoin_scene_get_info(const quoin_scene *s, quoin_scene_info *out)
                             .surfaces = s->half_count,
                             .distinct_surfaces = s->surface_count,
                             .empty = s->empty,
-                            .memory = s->bytes};
+                            .memory = s->bytes,
+                            .dropped = s->dropped,
+                            .gates = s->program.gate_count,
+                            .terms = s->normal.term_count,
+                            .copies = s->normal.copies,
+                            .shared = s->normal.shared};
   for (int k = 0; k < 3; k++) {
     out->box_min[k] = s->min[k];
     out->box_max[k] = s->max[k];

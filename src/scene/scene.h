@@ -77,6 +77,7 @@ struct quoin_scene {
   int empty;
   double min[3], max[3];          /* of the solid */
   size_t bytes;                   /* what the arrays above take */
+  size_t dropped;                 /* leaves of the model that are none of these */
   struct qn_snaps *snaps;         /* null: nothing was snapped */
   quoin_near_list *snapped;       /* what is told of it; null: not asked for */
 };
