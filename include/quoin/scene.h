@@ -30,7 +30,8 @@ typedef struct quoin_scene_info {
   size_t leaves;            /* primitives that were kept */
   size_t surfaces;          /* half-spaces of those leaves */
   size_t distinct_surfaces; /* after equal surfaces were made one */
-  int empty;                /* no point is inside */
+  int empty;                /* no point is inside: nothing is left after simplification, or equal surfaces show it (a solid minus itself, or minus one that
+                               holds it by the same surfaces). Other empty solids are not called so: 0 says nothing */
   int unbounded;            /* no bounding box could be given */
   double box_min[3], box_max[3]; /* holds the solid; infinite where unbounded. A leaf's box is exact, rounded outward, where its frame lies along
                                     the axes and its sizes are rational, else tight to the last bits; a tree's is the boxes' combination */

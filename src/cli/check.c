@@ -275,9 +275,10 @@ const cli_command cli_check_command = {
   "Read and compile a model; print its diagnostics, near surfaces and a summary.",
   "Errors, warnings and notes go to standard error, each with file:line:column, the line and a caret. The summary goes to\n"
   "standard output, one \"name value\" a line: leaves (primitives that were kept), surfaces (their half-spaces),\n"
-  "distinct_surfaces (after equal ones were made one), extent (bounded, unbounded or empty: nothing is left after\n"
-  "simplification), box xmin ymin zmin xmax ymax zmax, which holds the solid, near_pairs (pairs of surfaces that nearly\n"
-  "coincide), and with --snap snapped (surfaces that were moved). The first ten pairs are notes too, the smallest gaps first.\n"
+  "distinct_surfaces (after equal ones were made one), extent (bounded, unbounded, or empty: no point is inside, as far as\n"
+  "boxes and equal surfaces show; docs/language.md says when), box xmin ymin zmin xmax ymax zmax, which holds the solid,\n"
+  "near_pairs (pairs of surfaces that nearly coincide), and with --snap snapped (surfaces that were moved). The first ten\n"
+  "pairs are notes too, the smallest gaps first.\n"
   "With --json all goes to standard output as one object: model, status (\"ok\" or what failed), diagnostics, the summary, and all\n"
   "near and snapped pairs; infinite numbers are the strings \"-inf\" and \"inf\", the box of an empty solid is null.\n",
   options,

@@ -126,6 +126,7 @@ static quoin_status make(qn_building *b) {
   quoin_status status = make_leaves(b);
   status = status == QUOIN_OK ? qn_tell_progress(b->progress, 0.6) : status;
   status = status == QUOIN_OK ? qn_identify(b) : status;
+  status = status == QUOIN_OK ? qn_find_empty(b) : status;
   status = status == QUOIN_OK ? fit_all(b) : status;
   status = status == QUOIN_OK ? qn_tell_progress(b->progress, 0.7) : status;
   status = status == QUOIN_OK ? build_hierarchy(b) : status;

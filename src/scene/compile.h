@@ -205,6 +205,11 @@ QN_NODISCARD quoin_status qn_simplify(qn_building *b, double min[3], double max[
 /* Numbers the distinct surfaces in the order of their first use, and gives each half-space its surface and side. */
 QN_NODISCARD quoin_status qn_identify(qn_building *b);
 
+/* --- empty.c ------------------------------------------------------------------------------------------------------ */
+
+/* Sets scene->empty when equal surfaces tell that no point is inside. Cost: linear in the half-spaces. */
+QN_NODISCARD quoin_status qn_find_empty(qn_building *b);
+
 /* --- exact.c ------------------------------------------------------------------------------------------------------ */
 
 /* The exact form of a half-space given in world coordinates (not of a superquadric), primitive; *side: 1 when it is a positive
