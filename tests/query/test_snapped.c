@@ -72,8 +72,10 @@ static size_t same_answers(const quoin_scene *s, int rays) {
   for (int i = 0; i < rays; i++) {
     quoin_ray ray = {.from = -INFINITY, .to = INFINITY};
     quoin_intervals a, b;
-    for (int k = 0; k < 3; k++) { /* through places in the box, and a little beyond */
-      ray.o[k] = uniform(s->min[k] - 0.01 * size, s->max[k] + 0.01 * size);
+    const qn_leaf *last = &s->leaves[s->leaf_count - 1];
+    for (int k = 0; k < 3; k++) { /* through places in the box of all, or of the last leaf, and a little beyond */
+      double low = i % 2 ? s->min[k] : last->min[k], high = i % 2 ? s->max[k] : last->max[k], more = i % 2 ? 0.01 * size : 0.03 * (high - low);
+      ray.o[k] = uniform(low - more, high + more);
       ray.d[k] = i % 4 == k ? 0 : uniform(-1, 1);
     }
     assert_int_equal(quoin_ray_intervals(s, work, &ray, 0, &a), QUOIN_OK);
@@ -144,10 +146,16 @@ static void boxes_hold(void **unused) {
     "cube(50,center=true); multmatrix([[1,0,1e-6,0],[0,1,0,0],[-1e-6,0,1,25]]) wedge([1,2,3]);",
     "cube(50,center=true); multmatrix([[1,0,1e-6,0],[0,1,0,0],[-1e-6,0,1,25]]) cylinder(h=3,r1=2,r2=0,$fn=7);",
     "cube(50,center=true); multmatrix([[1,0,1e-6,0],[0,1,0,0],[-1e-6,0,1,25]]) polyhedron([[0,0,0],[5,0,0],[0,5,0],[0,0,5]],[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);",
+    "cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,22]]) cylinder(h=3,r=2);", /* the cap's far end is 0.024 higher */
+    "cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,22]]) cylinder(h=3,r1=1,r2=4);",
+    "cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,22]]) hyperboloid(h=3,r=4,rc=1);",
+    "cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,28]]) paraboloid(base=[0,0,-3],axis=[0,0,1],h=3,r=3);",
+    "cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,22]]) cube([5,2,3]);",
+    "cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,25]]) wedge([5,2,3]);",
     "scale([1,2,3]) sphere(1); translate([0,1e-6,0]) rotate([90,0,0]) ellipsoid([1,3,2]); rotate([0,0,1e-5]) sphere(0.5); sphere(0.50001);",
   };
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-    quoin_scene *s = snapped(texts[i], "0.0001", 1);
+    quoin_scene *s = snapped(texts[i], strstr(texts[i], "0.012") ? "0.2" : "0.0001", 1);
     assert_true(quoin_near_count(quoin_scene_snapped(s)) > 0);
     assert_int_equal(s->unbounded_count, 0);
     for (int k = 0; k < 3; k++) {

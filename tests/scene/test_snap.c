@@ -117,6 +117,44 @@ static void where_surfaces_go(void **unused) {
   }
 }
 
+/* x = 0 and x = 1.5 stand, x = 0.9 goes to the nearer one: names, roles and places are said. */
+static void to_the_nearest(void **unused) {
+  (void)unused;
+  quoin_scene *s = snapped("cube([50,9,9]);\ntranslate([1.5,0,0]) cube([60,9,9]);\n  name(\"it\") translate([0.9,0,0]) cube([40,9,9]);", "1", 1);
+  const quoin_near_list *list = quoin_scene_snapped(s);
+  quoin_near near;
+  assert_int_equal(quoin_near_count(list), 1);
+  assert_true(quoin_near_limit(list) == 1 && quoin_near_complete(list));
+  assert_int_equal(quoin_near_get(list, 0, &near), QUOIN_OK);
+  assert_string_equal(near.exact, "0.6");
+  assert_true(near.gap == 0.6 && !near.opposite);
+  assert_string_equal(near.face[0].name, "it");
+  assert_string_equal(near.face[1].name, "cube@2:22");
+  assert_true(near.face[0].role == QUOIN_FACE && near.face[1].role == QUOIN_FACE);
+  assert_true(near.face[0].line == 3 && near.face[0].column == 35 && near.face[1].line == 2 && near.face[1].column == 22);
+  assert_string_equal(near.face[0].file, "t");
+  quoin_scene_free(s);
+}
+
+/* A frustum that widens to its cap, which moved onto z = 25: with x = X + 0.012 Z, z = 22 - 0.012 X + Z, its rim at the angle a is at
+   Z = (3 + 0.012 cos a) / (1 - 0.012 cos a), radius 1 + Z. */
+static void box_of_a_tilted_cap(void **unused) {
+  (void)unused;
+  quoin_scene *s = snapped("cube(50,center=true); multmatrix([[1,0,0.012,0],[0,1,0,0],[-0.012,0,1,22]]) cylinder(h=3,r1=1,r2=4);", "0.2", 1);
+  assert_int_equal(quoin_near_count(quoin_scene_snapped(s)), 1);
+  const qn_leaf *leaf = &s->leaves[1];
+  double most[2] = {0, 0}, least = 0;
+  for (int i = 0; i < 1000; i++) {
+    double c = cos(i * 0.00628), n = sin(i * 0.00628), z = (3 + 0.012 * c) / (1 - 0.012 * c);
+    most[0] = fmax(most[0], (1 + z) * c + 0.012 * z);
+    most[1] = fmax(most[1], (1 + z) * n);
+    least = fmin(least, (1 + z) * c + 0.012 * z);
+  }
+  assert_true(leaf->max[0] >= most[0] && leaf->max[0] < most[0] + 0.1 && leaf->max[1] >= most[1] && leaf->min[0] <= least);
+  assert_true(leaf->max[2] == 25);
+  quoin_scene_free(s);
+}
+
 static void bad_limits(void **unused) {
   (void)unused;
   const struct { const char *limit; quoin_status status; } rows[] = {
@@ -464,7 +502,7 @@ static void property_of_round_solids(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gaps_by_hand), cmocka_unit_test(where_surfaces_go), cmocka_unit_test(bad_limits),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaps_by_hand), cmocka_unit_test(where_surfaces_go), cmocka_unit_test(to_the_nearest), cmocka_unit_test(box_of_a_tilted_cap), cmocka_unit_test(bad_limits),
                                      cmocka_unit_test(memory_refused), cmocka_unit_test(stopped),
                                      cmocka_unit_test(property_of_boxes), cmocka_unit_test(property_of_round_solids)};
   return cmocka_run_group_tests(tests, NULL, NULL);
