@@ -78,10 +78,12 @@ static quoin_status fit_all(qn_building *b) {
 
 static size_t bytes_of(const quoin_scene *s) {
   size_t hierarchy = s->bvh.node_count * sizeof *s->bvh.nodes + s->bvh.item_count * sizeof *s->bvh.items;
+  size_t snapped = s->snaps ? sizeof *s->snaps + s->snaps->capacity * sizeof *s->snaps->items + qn_near_list_bytes(s->snapped) : 0;
   return sizeof *s + s->leaf_count * (sizeof *s->leaves + sizeof *s->part_names + sizeof *s->line_of) + s->half_count * sizeof *s->halves +
          s->plane_count * sizeof *s->planes + s->quadric_count * sizeof *s->quadrics + s->surface_count * sizeof *s->surfaces +
          s->program.gate_count * sizeof *s->program.gates + qn_paths_bytes(s->program.paths) + hierarchy + s->unbounded_count * sizeof *s->unbounded +
-         s->material_count * sizeof *s->materials + s->name_size + qn_normal_bytes(&s->normal) + s->line_count * 64 + s->plain_count * sizeof *s->plain;
+         s->material_count * sizeof *s->materials + s->name_size + qn_normal_bytes(&s->normal) + s->line_count * 64 + s->plain_count * sizeof *s->plain +
+         snapped;
 }
 
 quoin_status qn_tell_progress(const quoin_progress *progress, double done) {

@@ -65,7 +65,7 @@ static void table_free(qn_near_table *t, qn_mem *mem) {
 
 static int64_t cell(double v, double width) {
   double c = floor(v / width);
-  return c > -0x1p62 && c < 0x1p62 ? (int64_t)c : 0; /* beyond, all are in one cell */
+  return c < 0x1p62 ? c > -0x1p62 ? (int64_t)c : -((int64_t)1 << 62) : (int64_t)1 << 62; /* beyond, all are in one cell */
 }
 
 /* --- the index ------------------------------------------------------------------------------------------------------- */
@@ -274,14 +274,12 @@ int qn_near_curved(qn_near_finder *f, const qn_near_item *it) {
 
 /* --- by boxes, for planes that may be near at wide angles: then few parts are where they are ------------------------- */
 
-enum { FEW_USERS = 8, FEW_MET = 256, FINE_LEVEL = 5 };
+enum { FEW_USERS = 8, FEW_MET = 256, FEW_UNBOUNDED = 64, FINE_LEVEL = 5 };
 
-static void meet_leaf(void *user, uint32_t number) {
-  qn_near_finder *f = user;
+static void compare_with_leaf(qn_near_finder *f, uint32_t number) {
   const qn_leaf *leaf = &f->scene->leaves[number];
   const qn_half *halves = f->scene->halves + leaf->half0;
-  f->met++;
-  for (uint32_t h = 0; h < leaf->halves && f->met <= FEW_MET && !f->refused; h++) {
+  for (uint32_t h = 0; h < leaf->halves && !f->refused; h++) {
     uint32_t other = halves[h].surface;
     const qn_near_item *it = &f->items[other];
     if (it->kind == QN_NEAR_PLANE && it->indexed && (may_be_near(f, f->asking, it, 1) || may_be_near(f, f->asking, it, -1))) {
@@ -290,12 +288,19 @@ static void meet_leaf(void *user, uint32_t number) {
   }
 }
 
+static void meet_leaf(void *user, uint32_t number) {
+  qn_near_finder *f = user;
+  if (++f->met <= FEW_MET) {
+    compare_with_leaf(f, number);
+  }
+}
+
 int qn_near_boxes(qn_near_finder *f, uint32_t i, int *told) {
   const qn_near_item *it = &f->items[i];
   uint32_t users = f->users_of[i + 1] - f->users_of[i];
   uint64_t nodes = 0;
   *told = 0;
-  if (it->level >= FINE_LEVEL || users > FEW_USERS || !(it->size <= 64 * f->unit) || f->scene->unbounded_count) {
+  if (it->level >= FINE_LEVEL || users > FEW_USERS || !(it->size <= 64 * f->unit) || f->scene->unbounded_count > FEW_UNBOUNDED) {
     return 1;
   }
   f->asking = it;
@@ -308,6 +313,9 @@ int qn_near_boxes(qn_near_finder *f, uint32_t i, int *told) {
       max[k] = nextafter(leaf->max[k] + f->most, INFINITY);
     }
     qn_bvh_point(&f->scene->bvh, min, max, meet_leaf, f, &nodes);
+  }
+  for (size_t u = 0; u < f->scene->unbounded_count; u++) {
+    compare_with_leaf(f, f->scene->unbounded[u]);
   }
   f->compared += f->met;
   *told = f->met <= FEW_MET;

@@ -94,6 +94,10 @@ quoin_status qn_snap_limit(qn_ctx *ctx, const char *text, qn_num *out) {
   return status != QUOIN_OK ? status : ctx->failed != QUOIN_OK ? ctx->failed : qn_num_sign(*out) < 0 ? QUOIN_E_ARGUMENT : QUOIN_OK;
 }
 
+size_t qn_near_list_bytes(const quoin_near_list *list) {
+  return list ? sizeof *list + list->capacity * sizeof *list->rows : 0;
+}
+
 QUOIN_API size_t quoin_near_count(const quoin_near_list *list) {
   return list ? list->count : 0;
 }

@@ -48,6 +48,7 @@ struct quoin_near_list {
 /* Makes a list of pairs, which it takes the texts of. */
 QN_NODISCARD quoin_status qn_near_list_make(const quoin_scene *scene, qn_near_pairs *pairs, qn_num limit, quoin_near_list **out);
 
+size_t qn_near_list_bytes(const quoin_near_list *list); /* but for its texts */
 /* The limit, a decimal: QUOIN_E_NUMBER when it is none, QUOIN_E_ARGUMENT when it is negative. */
 QN_NODISCARD quoin_status qn_snap_limit(qn_ctx *ctx, const char *text, qn_num *out);
 
