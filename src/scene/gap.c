@@ -5,7 +5,8 @@
 
      planes, parallel      the distance |d1 - d2| / sqrt p
      planes, other         s_i = (N_i.x + d_i) / |N_i| is the signed distance from plane i; the gap is the greatest |s1 - s2| over x's region,
-                           which is taken at a corner, or how far the two regions are apart along an axis, if that is more. With A = N1.x + d1, C = N2.x + d2 of one sign there,
+                           which is taken at a corner, or how far the two regions are apart along an axis, if that is more. With A = N1.x + d1,
+                           C = N2.x + d2 of one sign there,
                              |s1 - s2| = |A^2 p2 - C^2 p1| / (sqrt p1 sqrt p2 (|A| sqrt p2 + |C| sqrt p1)),
                            whose numerator is rational, so that nothing cancels
      rank 3                centre c = -inverse(M) g, level e = q(c); t = c1 - c2.
