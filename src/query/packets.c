@@ -36,11 +36,21 @@ static void patience_learns(qn_patience *p, uint64_t leaves_of_a_ray) {
 void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   const quoin_scene *scene = work->scene;
   hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
-  qn_wide_counts wide = {.budget = scene->normal.made ? patience_budget(&work->patience) : 0};
-  if (wide.budget) {
+  if (!scene->normal.made) {
+    return;
+  }
+  qn_wide_counts wide = {.budget = patience_budget(&work->patience)};
+  const qn_first_fn body = packet->few == QN_MANY_LANES ? work->wide->first : packet->few == QN_FEW_LANES ? work->wide->few : work->wide->one;
+  if (wide.budget == 0) {
+    /* What the body derives from the rays is made all the same: the next packet may say that it keeps their directions. */
+    const uint64_t live = packet->live;
+    packet->live = 0;
+    body(scene, packet, hits, &wide);
+    packet->live = live;
+    hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = live;
+  } else {
     qn_counts *counts = qn_scratch_counts(work->scratch);
-    const qn_wide *body = work->wide;
-    (packet->few == QN_MANY_LANES ? body->first : packet->few == QN_FEW_LANES ? body->few : body->one)(scene, packet, hits, &wide);
+    body(scene, packet, hits, &wide);
     counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
     const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
     counts->rays += lanes - unsure;

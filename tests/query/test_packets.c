@@ -521,10 +521,60 @@ static void known_cases(void **state) {
   assert_int_equal(failures, 0);
 }
 
+/* Packets that are not tried (the work has lost patience) leave behind what later ones keep of them: grids, arrays of rays. */
+static void skipped_packets(void **state) {
+  (void)state;
+  enum { SIDE = 64, RAYS = SIDE * SIDE };
+  static quoin_spot want[RAYS], got[RAYS];
+  static quoin_ray rays[RAYS];
+  static quoin_hit hit_wanted[RAYS], hit_got[RAYS];
+  ask a;
+  ask_open(&a, "difference() { cube(10, center = true); sphere(6); rotate([20, 30, 0]) cylinder(h = 30, r = 2, center = true); }");
+  for (int turn = 0; turn < 12; turn++) {
+    quoin_grid grid = {.width = SIDE, .height = SIDE, .converging = turn & 1, .from = 0, .to = HUGE_VAL};
+    const double tilt = 0.1 * turn - 0.5;
+    for (int i = 0; i < 3; i++) {
+      const int axis = turn % 3;
+      const double along = i == axis ? 1 : i == (axis + 1) % 3 ? tilt : 0;
+      grid.o[i] = -30 * along, grid.d[i] = along;
+      grid.u[i] = i == (axis + 1) % 3 ? (grid.converging ? 1 : 20) : 0, grid.v[i] = i == (axis + 2) % 3 ? (grid.converging ? 1 : 20) : 0;
+    }
+    for (int i = 0; i < 3; i++) { /* the solid in the middle */
+      (grid.converging ? grid.d : grid.o)[i] -= (grid.u[i] + grid.v[i]) / 2;
+    }
+    for (int k = 0; k < RAYS; k++) {
+      for (int i = 0; i < 3; i++) {
+        const double s = (k % SIDE + 0.5) / SIDE, r = (k / SIDE + 0.5) / SIDE;
+        rays[k].o[i] = grid.o[i] + (grid.converging ? 0 : s * grid.u[i] + r * grid.v[i]), rays[k].d[i] = grid.d[i] + (grid.converging ? s * grid.u[i] + r * grid.v[i] : 0);
+      }
+      rays[k].from = 0, rays[k].to = HUGE_VAL;
+    }
+    a.work->patience = (qn_patience){0};
+    assert_int_equal(quoin_grid_hits(a.scene, a.work, &grid, 0, 0, SIDE, SIDE, QUOIN_WANT_T, want), QUOIN_OK);
+    assert_int_equal(quoin_first_hits(a.scene, a.work, RAYS, rays, hit_wanted), QUOIN_OK);
+    quoin_grid other = grid; /* what lies about in memory is to be of other rays */
+    other.d[turn % 3] = other.converging ? 3 : -1, other.d[(turn + 1) % 3] = 0.75, other.o[(turn + 1) % 3] += 1;
+    assert_int_equal(quoin_grid_hits(a.scene, a.work, &other, 0, 0, SIDE, SIDE, QUOIN_WANT_T, got), QUOIN_OK);
+    a.work->patience = (qn_patience){.fair = 100, .lost = 16, .turn = (uint32_t)turn};
+    assert_int_equal(quoin_grid_hits(a.scene, a.work, &grid, 0, 0, SIDE, SIDE, QUOIN_WANT_T, got), QUOIN_OK);
+    a.work->patience = (qn_patience){.fair = 100, .lost = 16, .turn = (uint32_t)turn};
+    assert_int_equal(quoin_first_hits(a.scene, a.work, RAYS, rays, hit_got), QUOIN_OK);
+    size_t found = 0;
+    for (int k = 0; k < RAYS; k++) {
+      found += want[k].surface != QUOIN_NO_SURFACE;
+      assert_true(want[k].surface == got[k].surface && want[k].leaving == got[k].leaving && memcmp(&want[k].t, &got[k].t, sizeof want[k].t) == 0);
+      assert_true(hit_wanted[k].found == hit_got[k].found && memcmp(&hit_wanted[k].t, &hit_got[k].t, sizeof want[k].t) == 0);
+    }
+    assert_true(found > 100);
+  }
+  ask_close(&a);
+}
+
 int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_bodies();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(many_blocked), cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(many_blocked), cmocka_unit_test(skipped_packets),
+                                     cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
