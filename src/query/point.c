@@ -50,28 +50,31 @@ quoin_status qn_query_point_doubles(quoin_work *work, const double x[3], qn_quer
   return QUOIN_OK;
 }
 
+quoin_status qn_query_decimal(quoin_work *work, const char *text, double *x, double *weight) {
+  int exact = 0;
+  size_t read = text ? qn_decimal_quick(text, x, &exact) : 0;
+  if (QN_UNLIKELY(read == 0 || text[read] != '\0')) {
+    qn_num n;
+    quoin_status status = qn_query_number(work, text, &n);
+    if (status != QUOIN_OK) {
+      return status;
+    }
+    *x = qn_num_to_double(n);
+    exact = isfinite(*x) && qn_num_equal(qn_num_from_double(qn_scratch_ctx(work->scratch), *x), n);
+  }
+  double size = fabs(*x) < DBL_MIN ? DBL_MIN : fabs(*x);
+  *weight = exact ? 0 : size; /* rounded to nearest: within u |x|, or below the least normal number within 2^-1074 */
+  return QUOIN_OK;
+}
+
 quoin_status qn_query_point_text(quoin_work *work, const char *const text[3], qn_query_point *out) {
   memset(out, 0, sizeof *out);
   for (int i = 0; i < 3; i++) {
-    if (!text[i]) {
-      return QUOIN_E_ARGUMENT;
+    quoin_status status = qn_query_decimal(work, text[i], &out->x[i], &out->weight[i]);
+    if (status != QUOIN_OK) {
+      return status;
     }
-    int exact = 0;
-    size_t read = qn_decimal_quick(text[i], &out->x[i], &exact);
-    if (read == 0 || text[i][read] != '\0') {
-      qn_num n;
-      quoin_status status = qn_query_number(work, text[i], &n);
-      if (status != QUOIN_OK) {
-        return status;
-      }
-      out->x[i] = qn_num_to_double(n);
-      exact = isfinite(out->x[i]) && qn_num_equal(qn_num_from_double(qn_scratch_ctx(work->scratch), out->x[i]), n);
-    }
-    if (!exact) {
-      /* Rounded to nearest: within u |x|, or below the least normal number within 2^-1074. */
-      out->weight[i] = fmax(fabs(out->x[i]), DBL_MIN);
-      out->text[i] = text[i];
-    }
+    out->text[i] = out->weight[i] != 0 ? text[i] : NULL;
   }
   return qn_scratch_ctx(work->scratch)->failed;
 }

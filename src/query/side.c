@@ -110,12 +110,15 @@ quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, 
     decimals d;
     d.n = 0;
     qn_query_begin(work);
-    while (d.n < most && wrong == QUOIN_OK) {
-      qn_query_point p;
-      wrong = qn_query_point_text(work, texts + 3 * d.n, &p);
-      if (wrong == QUOIN_OK) {
-        memcpy(d.x + 3 * d.n, p.x, sizeof p.x);
-        d.weight[d.n++] = fmax(fmax(p.weight[0], p.weight[1]), p.weight[2]);
+    for (; d.n < most; d.n++) {
+      double weight = 0, *x = d.x + 3 * d.n;
+      d.weight[d.n] = 0;
+      for (int k = 0; k < 3 && wrong == QUOIN_OK; k++) {
+        wrong = qn_query_decimal(work, texts[3 * d.n + (size_t)k], &x[k], &weight);
+        d.weight[d.n] = weight > d.weight[d.n] ? weight : d.weight[d.n];
+      }
+      if (wrong != QUOIN_OK) {
+        break;
       }
     }
     status = settle(work, &d, texts, out + *done, done);

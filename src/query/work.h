@@ -68,6 +68,8 @@ typedef struct qn_query_point {
 void qn_query_begin(quoin_work *work);
 quoin_status qn_query_point_doubles(quoin_work *work, const double x[3], qn_query_point *out);
 quoin_status qn_query_point_text(quoin_work *work, const char *const text[3], qn_query_point *out);
+/* A decimal as a double, and the weight of what it lacks: 0 where it is exactly that. */
+quoin_status qn_query_decimal(quoin_work *work, const char *text, double *x, double *weight);
 /* A whole text as a number. */
 quoin_status qn_query_number(quoin_work *work, const char *text, qn_num *out);
 
