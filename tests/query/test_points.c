@@ -170,12 +170,13 @@ static void large_models(void **state) {
   char *text = malloc(size);
   frame f = {.scale = {1, 1, 1}};
   assert_non_null(text);
-  for (int kind = 0; kind < 5; kind++) {
+  for (int round = 0; round < 15; round++) {
+    int kind = round % 5, leaves = round < 5 ? 3000 : round < 10 ? 400 : 90;
     writer w = {text, size, 0};
     put(&w, kind == 1 || kind == 3 ? "difference() { translate([-5,-5,-5]) cube(10); \n" : kind == 2 ? "intersection() { union() {\n" : "union() {\n");
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < leaves; i++) {
       double x = 0.01 * (roll(&d, 1001) - 500), y = 0.01 * (roll(&d, 1001) - 500), z = 0.01 * (roll(&d, 1001) - 500);
-      if (kind == 2 && i == 1500) {
+      if (kind == 2 && i == leaves / 2) {
         put(&w, "} union() {\n");
       }
       if (kind == 4) {
@@ -195,6 +196,7 @@ static void large_models(void **state) {
     for (int i = 0; i < 3; i++) {
       setenv("QUOIN_ISA", ISAS[i], 1);
       a.work->wide = qn_wide_pick();
+      a.work->cells = i ? qn_scene_cells(a.scene) : NULL, a.work->cells_asked = 1;
       uint64_t before = handed(&a);
       assert_int_equal(quoin_point_sides(a.scene, a.work, 4000, points, got), QUOIN_OK);
       assert_true(handed(&a) - before < 500);
@@ -270,6 +272,59 @@ static void decimals(void **state) {
   ask_close(&a);
 }
 
+/* Decimals far out, whose doubles are other places: 2^60 and what rounds to it, beside solids much smaller than that rounding. */
+static void far_decimals(void **state) {
+  (void)state;
+  static const char *const solids[] = {"sphere(20);", "cube(40, center = true);", "cylinder(r = 20, h = 40, center = true);", "cylinder(r = 20, h = 40, center = true, $fn = 8);",
+                                       "scale([1, 2, 1]) sphere(20);", "intersection() { sphere(20); cube(30, center = true); }"};
+  for (size_t i = 0; i < sizeof solids / sizeof *solids; i++) {
+    char text[300];
+    ask a;
+    snprintf(text, sizeof text, "translate([1152921504606846976, 0, 0]) %s", solids[i]);
+    ask_open(&a, text);
+    const char *const points[] = {"1152921504606846976", "0", "0", "1152921504606847000", "0", "0", "1152921504606846980", "0", "0", "1152921504606846950", "0", "0",
+                                  "1152921504606846976.000001", "0", "0", "1152921504606846996", "0", "0"};
+    quoin_side got[6];
+    assert_int_equal(quoin_point_sides_text(a.scene, a.work, 6, points, got, NULL), QUOIN_OK);
+    assert_true(got[0] == QUOIN_INSIDE && got[1] == QUOIN_OUTSIDE && got[2] == QUOIN_INSIDE && got[3] == QUOIN_OUTSIDE && got[4] == QUOIN_INSIDE);
+    assert_true(i > 4 || i == 3 || got[5] == QUOIN_BOUNDARY);
+    ask_close(&a);
+  }
+}
+
+/* Boxes whose faces are where one cell of the grid ends and the next begins: points on those faces. */
+static void on_the_borders_of_cells(void **state) {
+  (void)state;
+  char *text = malloc(1 << 16);
+  assert_non_null(text);
+  writer w = {text, 1 << 16, 0};
+  for (int i = 0; i < 79; i++) { /* makes 200 cells along 160 */
+    put(&w, "translate([%d,0,0]) cube(1);\n", i == 78 ? 159 : 2 * i);
+  }
+  for (int i = 0; i < 3; i++) {
+    setenv("QUOIN_ISA", ISAS[i], 1);
+    ask a;
+    ask_open(&a, text);
+    const qn_cells *cells = qn_scene_cells(a.scene);
+    assert_true(cells && cells->grid_count == 1 && cells->grids[0].scale[0] == 1.25f && cells->grids[0].low[0] == 0);
+    double points[3 * 642];
+    quoin_side got[642];
+    for (int k = 0; k < 642; k++) {
+      points[3 * k] = 0.25 * k - 0.125 * (k % 2), points[3 * k + 1] = points[3 * k + 2] = 0.5;
+    }
+    a.work->cells = cells, a.work->cells_asked = 1;
+    assert_int_equal(quoin_point_sides(a.scene, a.work, 642, points, got), QUOIN_OK);
+    for (int k = 0; k < 642; k++) {
+      quoin_side want = exactly(&a, points + 3 * k);
+      assert_int_equal(got[k], want);
+      assert_true(k % 16 || k > 608 || want == QUOIN_BOUNDARY);
+    }
+    ask_close(&a);
+  }
+  unsetenv("QUOIN_ISA");
+  free(text);
+}
+
 /* Points that are none are refused, after the answers to those before them. */
 static void refused(void **state) {
   (void)state;
@@ -343,6 +398,6 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   const struct CMUnitTest tests[] = {cmocka_unit_test(random_models), cmocka_unit_test(large_models), cmocka_unit_test(decimals),
-                                     cmocka_unit_test(refused),       cmocka_unit_test(threads)};
+                                     cmocka_unit_test(far_decimals), cmocka_unit_test(on_the_borders_of_cells), cmocka_unit_test(refused),       cmocka_unit_test(threads)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
