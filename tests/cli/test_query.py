@@ -69,11 +69,27 @@ class Sides(Case):
         r = self.good(run("query", self.model("cube(1);"), "--stats", stdin="0.5 0.5 0.5\n" * 3), "inside\n" * 3)
         stats = dict(line.split() for line in r.err.splitlines())
         self.assertEqual(stats["points"], "3")
+        self.assertEqual(stats["exact_points"], "0")
+        r = self.good(run("query", self.model("cube(1);"), "--stats", stdin="0.5 0.5 0.5\n1 1 1\n0.5 1 0.5\n"), "inside\nboundary\nboundary\n")
+        stats = dict(line.split() for line in r.err.splitlines())
+        self.assertEqual((stats["points"], stats["exact_points"]), ("3", "2"))
         self.assertIn("read_seconds", stats)
         self.assertIn("exact_signs", stats)
 
 
 class WrongLines(Case):
+    def test_among_many(self):
+        """Lines are answered in groups: those before a wrong one are answered all the same, and its place is right."""
+        m = self.model("cube(1);")
+        for bad in (0, 1, 255, 256, 257, 511, 900):
+            for wrong, what in (("0.5 0.5", "fewer"), ("0.5 x 0.5", "'x'"), ("1 2 3 4", "more"), ("1 2 1e99999", "exponent")):
+                lines = ["0.5 0.5 0.5 # in" if i % 3 else "7,7,7" for i in range(1000)]
+                lines[bad] = wrong
+                want = "".join("inside\n" if i % 3 else "outside\n" for i in range(bad))
+                for threads in (1, 3):
+                    r = self.bad(run("query", m, "--threads", threads, stdin="\n".join(lines)), 2, f"<stdin>:{bad + 1}:", what)
+                    self.assertEqual(r.out, want)
+
     def test_place(self):
         m = self.model("cube(1);")
         r = self.bad(run("query", m, stdin="0.5 0.5 0.5\n# c\n\n1 1 1 # here\n 2 1.2.3 0 # there\n9 9 9\n"), 2, "<stdin>:5:4: error: ", "'1.2.3'")
