@@ -221,7 +221,7 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
 
 /* --- quadric body ------------------------------------------------------------------------------------------------ */
 typedef struct body_constants {
-  vd row[3][4], s[3], l, k, reach2, far2, ed_low, ed_high, ea, eh, ec, flat, gap, slow, steep, plow, phigh;
+  vd row[3][4], s[3], l, k, reach2, far2, ed_low, ed_high, ea, eh, ec, flat, gap, two_ed, slow, steep, plow, phigh;
   int sound;  /* 0: the bounds say nothing here, every lane is unsure */
   int linear; /* a = 0 in every lane, exactly */
 } body_constants;
@@ -264,7 +264,8 @@ QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const 
   k->ed_low = bound(-ed), k->ed_high = bound(solved);
   k->ea = bound(ea), k->eh = bound(eh), k->ec = bound(ec);
   k->flat = bound(QN_WIDE_FLAT * A);
-  k->gap = bound(QN_WIDE_SLACK * (eh + 2 * ed / sqrt(solved) + c * (2 * H + sqrt(A * C))));
+  k->gap = bound(QN_WIDE_SLACK * (eh + c * (2 * H + sqrt(A * C))));
+  k->two_ed = bound(2 * QN_WIDE_SLACK * ed);
   k->slow = vset(QN_WIDE_SLOW * D * D);
   if (k->linear) { /* h = l D_2 alone */
     k->eh = vset(c * fabs(l) * delta[2]), k->steep = vset(QN_WIDE_STEEP * fabs(l) * delta[2]);
@@ -326,7 +327,7 @@ QN_INLINE void body_roots(const body_constants *k, vd t0, vd a, vd h, vd c, vd l
   vd inv = vdiv(one, vpick(real, a, one)), root = vsqrt(vpick(real, disc, zero));
   vd r0 = vmul(vsub(zero, vadd(h, root)), inv), r1 = vmul(vsub(root, h), inv);
   vd low = vadd(t0, vmin(r0, r1)), high = vadd(t0, vmax(r0, r1)), size = vabs(inv);
-  vd error = vfma(vmul(k->ea, size), vmul(vset(2), vmax(vabs(r0), vabs(r1))), vmul(k->gap, size));
+  vd error = vfma(vmul(k->ea, size), vmul(vset(2), vmax(vabs(r0), vabs(r1))), vmul(vadd(k->gap, vdiv(k->two_ed, vpick(real, root, one))), size));
   part->error = CHECKED ? vpick(real, vfma(vabs(t0), vset(8 * QN_U), error), zero) : zero;
   vm between = vandnot(real, opens), split = vand(vand(real, opens), s->hit);
   part->ta = vpick(between, low, part->ta), part->tb = vpick(between, high, part->tb);
