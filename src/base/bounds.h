@@ -119,8 +119,7 @@
    |D|^2 > QN_WIDE_SLOW times its packet's bound: QN_WIDE_MOVE QN_WIDE_ROUND >= 6.1 + 5.2 / sqrt(QN_WIDE_SLOW).
    QN_WIDE_LARGEST: coordinates, components and pieces' numbers beyond it, or (not coordinates) under its inverse, are left to others;
    then QN_WIDE_TINY exceeds any loss by underflow. QN_WIDE_FLOAT >= 3 2^-24: relative widening of a slab's 1/d.
-   QN_WIDE_SPOT >= 4u: a place's point, relative to its terms. QN_FLOAT_STEP > 2^-24, QN_FLOAT_TINY > 2^-150: past a float's own rounding.
-   QN_WIDE_ALONG stands for 1/d of a single ray where d = 0: any size will do, as only the sign of the product counts. */
+   QN_WIDE_SPOT >= 4u: a place's point, relative to its terms. QN_FLOAT_STEP > 2^-24, QN_FLOAT_TINY > 2^-150: past a float's own rounding. */
 #define QN_WIDE_ROUND 32
 #define QN_WIDE_SHY 0x1p14
 #define QN_WIDE_SHY_ROOT 0x1p-7 /* 1 / sqrt(QN_WIDE_SHY) */
@@ -133,7 +132,6 @@
 #define QN_WIDE_TINY 0x1p-400
 #define QN_WIDE_FLOAT 0x1p-20
 #define QN_WIDE_SPOT 0x1p-40
-#define QN_WIDE_ALONG 0x1p+100f
 #define QN_FLOAT_STEP 0x1p-22f
 #define QN_FLOAT_TINY 0x1p-126f
 

@@ -5,6 +5,7 @@
 
 #include "wide/solve.h"
 
+#include <float.h>
 #include <stddef.h>
 
 #if QN_LANES_NOW == 64
@@ -19,10 +20,10 @@ enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK =
 enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
 
 #if QN_LANES_NOW == 1
-/* A single ray against boxes: which side of a box is met first along each axis, from where, and 1/d; an axis along which the ray does not go has a huge one,
-   so that its slab is met at a huge |t| or none. */
+/* A single ray against boxes: which side of a box is met first along each axis, from where, and 1/d. */
 typedef struct beam {
   int ready; /* 0: some 1/d is no float */
+  unsigned flat; /* axes along which the ray does not go */
   unsigned near[3], far[3]; /* places in a node */
   float near_o[3], far_o[3], inv[3];
 } beam;
@@ -134,13 +135,14 @@ enum { MAX_AT = offsetof(qn_bvh_node, max) / sizeof(float) };
 
 static void beam_make(walk *w) {
   const qn_packet *p = w->f.p;
-  w->beam.ready = 1;
+  w->beam.ready = 1, w->beam.flat = 0;
   for (int i = 0; i < 3; i++) {
     const int up_ = p->axis[i] != AXIS_DOWN;
     w->beam.ready &= p->axis[i] != AXIS_MIXED;
     w->beam.near[i] = (up_ ? 0 : MAX_AT) + 8 * (unsigned)i, w->beam.far[i] = (up_ ? MAX_AT : 0) + 8 * (unsigned)i;
     w->beam.near_o[i] = up_ ? w->all_omax[i] : w->all_omin[i], w->beam.far_o[i] = up_ ? w->all_omin[i] : w->all_omax[i];
-    w->beam.inv[i] = p->axis[i] == AXIS_FLAT ? QN_WIDE_ALONG : (float)p->inv[i][0];
+    w->beam.inv[i] = (float)p->inv[i][0];
+    w->beam.flat |= (unsigned)(p->axis[i] == AXIS_FLAT) << i;
   }
 }
 
@@ -148,16 +150,23 @@ static void beam_make(walk *w) {
 QN_INLINE unsigned beam_meets(const beam *b, const qn_bvh_node *n, float start, float end, float near[8]) {
   const float *planes = (const float *)(const void *)n; /* min, and max from MAX_AT */
   vf8 first = fset(-INFINITY), last = fset(INFINITY), zero = fset(0), widen = fset(QN_WIDE_FLOAT), tiny = fset(QN_FLOAT_TINY);
+  unsigned meets = 0xff;
   for (int i = 0; i < 3; i++) {
-    vf8 inv = fset(b->inv[i]);
-    first = fmax8(first, fmul(fsub(fload(planes + b->near[i]), fset(b->near_o[i])), inv));
-    last = fmin8(last, fmul(fsub(fload(planes + b->far[i]), fset(b->far_o[i])), inv));
+    const vf8 near_plane = fload(planes + b->near[i]), far_plane = fload(planes + b->far[i]);
+    if (b->flat >> i & 1) {
+      meets &= fle(near_plane, fset(b->near_o[i])) & fle(fset(b->far_o[i]), far_plane);
+    } else {
+      const vf8 inv = fset(b->inv[i]);
+      first = fmax8(first, fmul(fsub(near_plane, fset(b->near_o[i])), inv));
+      last = fmin8(last, fmul(fsub(far_plane, fset(b->far_o[i])), inv));
+    }
   }
+  first = fmin8(first, fset(FLT_MAX)), last = fmax8(last, fset(-FLT_MAX)); /* what has overflowed may be less */
   first = fsub(first, fadd(fmul(fmax8(first, fsub(zero, first)), widen), tiny));
   last = fadd(last, fadd(fmul(fmax8(last, fsub(zero, last)), widen), tiny));
   first = fmax8(fset(start), first), last = fmin8(fset(end), last);
   fstore(near, first);
-  return fle(first, last); /* an empty slot's box is inverted */
+  return meets & fle(first, last); /* an empty slot's box is inverted */
 }
 #endif
 
