@@ -478,6 +478,9 @@ static const known KNOWN[] = {
   {"leaving just after the range", "sphere(2);", {0, 0, 0}, {1, 0, 0}, 0, 0x1.fffffffffffffp+0, 0, 0, {0, 0, 0, 1, 0, 0}},
   {"down a paraboloid's axis", "paraboloid(h=4,r=2);", {0.5, 0.5, -1}, {0, 0, 1}, 0, HUGE_VAL, 1, 1.5, {0.25, 0.5, -1, 0, 0, 1}},
   {"along a cylinder's axis, near its wall", "cylinder(r=5,h=2);", {3, 0x1.ffffffffffffp+1, -1}, {0, 0, 1}, 0, HUGE_VAL, 1, 1, {3, 4.5, -1, 0, 0, 1}},
+  {"in a face at 0 of what is taken away", /* a single ray's slab along an axis where d = 0 and the side is at 0 */
+   "union() { wedge([1,3,1]); difference() { halfspace(n=[1,-1,1],d=2); translate([-2,2,2]) rotate([0,90,0]) cylinder(h=2,r=[2,2]); } cube([2,1,1],center=true); }",
+   {0, 41.1611328125, 1}, {0, -3.2431640625, 0}, -2.75, HUGE_VAL, 1, NAN, {0.5, 41, 1, 0, -3, 0}},
   {"along a cylinder's axis, just out of it", "cylinder(r=5,h=2);", {3, 0x1.0000000000001p+2, -1}, {0, 0, 1}, 0, HUGE_VAL, 0, 0, {3, 3, -1, 0, 0, 1}},
 };
 

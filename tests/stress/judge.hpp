@@ -24,9 +24,10 @@ inline Answer2 copy(const quoin_intervals &a) {
 inline quoin_ray plain(const Ray &r) { return {{r.o[0], r.o[1], r.o[2]}, {r.d[0], r.d[1], r.d[2]}, r.from, r.to}; }
 
 // How a ray is asked.
-enum Way { One, Many, ManyBoundary, Hits, Hit, Text, Ways };
-static const char *const WAYS[Ways] = {"quoin_ray_intervals", "quoin_ray_intervals_many", "quoin_ray_intervals_many with boundary", "quoin_first_hits", "quoin_first_hit", "quoin_ray_intervals_text"};
-inline bool is_hit(int way) { return way == Hits || way == Hit; }
+enum Way { One, Many, ManyBoundary, Hits, Hit, Text, Spots, Blocked, ManyText, Ways };
+static const char *const WAYS[Ways] = {"quoin_ray_intervals", "quoin_ray_intervals_many", "quoin_ray_intervals_many with boundary", "quoin_first_hits", "quoin_first_hit", "quoin_ray_intervals_text",
+                                        "quoin_first_spots", "quoin_rays_blocked", "quoin_ray_intervals_many_text"};
+inline bool is_hit(int way) { return way == Hits || way == Hit || way == Spots || way == Blocked; }
 struct Reply { Answer2 answer; quoin_hit hit{}; };
 
 // Scratch that runs the wide code of one instruction set (or of the widest below it that this machine has).
@@ -56,6 +57,33 @@ inline std::vector<Reply> ask_rays(const Model &model, quoin_work *work, const s
       }, &out);
     if (s != QUOIN_OK)
       for (auto &o : out) o.answer.status = s;
+  } else if (way == ManyText) { // one range for all
+    std::vector<std::string> t;
+    std::vector<const char *> p;
+    for (auto &r : q)
+      for (int k = 0; k < 6; k++) t.push_back(decimal(Q(k < 3 ? r.o[k] : r.d[k - 3])));
+    for (auto &s : t) p.push_back(s.c_str());
+    std::string from, to;
+    if (std::isfinite(q[0].from)) from = decimal(Q(q[0].from));
+    if (std::isfinite(q[0].to)) to = decimal(Q(q[0].to));
+    quoin_status s = quoin_ray_intervals_many_text(m.scene, m.work, q.size(), p.data(), from.empty() ? nullptr : from.c_str(), to.empty() ? nullptr : to.c_str(), QUOIN_WANT_BOUNDARY,
+      [](void *user, size_t i, const quoin_intervals *a) {
+        (*(std::vector<Reply> *)user)[i].answer = copy(*a);
+        return 0;
+      }, &out);
+    if (s != QUOIN_OK)
+      for (auto &o : out) o.answer.status = s;
+  } else if (way == Spots) {
+    std::vector<quoin_spot> spots(rays.size());
+    quoin_status s = quoin_first_spots(m.scene, m.work, q.size(), q.data(), QUOIN_WANT_T, spots.data());
+    for (size_t i = 0; i < out.size(); i++) {
+      out[i].hit.found = spots[i].surface != QUOIN_NO_SURFACE, out[i].hit.t = spots[i].t, out[i].hit.leaving = spots[i].leaving != 0;
+      out[i].answer.status = s;
+    }
+  } else if (way == Blocked) {
+    std::vector<uint8_t> blocked(rays.size());
+    quoin_status s = quoin_rays_blocked(m.scene, m.work, q.size(), q.data(), nullptr, blocked.data());
+    for (size_t i = 0; i < out.size(); i++) out[i].hit.found = blocked[i], out[i].answer.status = s;
   } else if (way == Hits) {
     std::vector<quoin_hit> hits(rays.size());
     quoin_status s = quoin_first_hits(m.scene, m.work, q.size(), q.data(), hits.data());
@@ -110,6 +138,17 @@ Verdict check(const std::vector<std::pair<const E *, const E *>> &truth, const R
     end(p.leave, s.second && hi <= 0 ? s.second : nullptr, ray.to);
   }
   return k == said.size() ? v : Wrong;
+}
+// Whether any stretch reaches into the range.
+template <class E, class Compare>
+Verdict check_blocked(const std::vector<std::pair<const E *, const E *>> &truth, const Ray &ray, const quoin_hit &hit, Compare compare) {
+  bool any = false, open = false;
+  for (auto &s : truth) {
+    int gone1 = s.second ? compare(*s.second, ray.from) : 1, gone2 = s.first ? compare(*s.first, ray.to) : -1;
+    open = open || gone1 == 2 || gone2 == 2;
+    any = any || (gone1 > 0 && gone1 != 2 && gone2 < 0 && ray.from < ray.to);
+  }
+  return any ? (hit.found ? Right : Wrong) : open ? Unknown : hit.found ? Wrong : Right;
 }
 template <class E, class Compare, class Nearest>
 Verdict check_hit(const std::vector<std::pair<const E *, const E *>> &truth, const Ray &ray, const quoin_hit &hit, Compare compare, Nearest nearest, size_t &rounded) {
@@ -170,6 +209,7 @@ struct Bench { // one model and its judges
       return gap > n.e ? 1 : -gap > n.e ? -1 : none(Num{gap, n.e}) ? 0 : 2;
     };
     auto nearest = [](double t, const Num &n) { return nearest_quick(t, n); };
+    if (way == Blocked) return check_blocked<Num>(quick_inside, ray, reply.hit, compare);
     if (is_hit(way)) return check_hit<Num>(quick_inside, ray, reply.hit, compare, nearest, rounded);
     if (way != Many && !reply.answer.boundary.empty()) return Wrong;
     return check<Num>(quick_inside, ray, reply.answer.inside, compare, nearest, rounded);
@@ -202,6 +242,7 @@ struct Bench { // one model and its judges
     for (size_t i = 0; i < a.what.size(); i++)
       if (a.what[i] != Answer::Outside)
         (a.what[i] == Answer::Inside ? in : on).push_back({i ? &a.cuts[i - 1] : nullptr, i < a.cuts.size() ? &a.cuts[i] : nullptr});
+    if (way == Blocked) return check_blocked<Root>(in, ray, reply.hit, compare);
     if (is_hit(way)) return check_hit<Root>(in, ray, reply.hit, compare, nearest_, rounded);
     Verdict v = check<Root>(in, ray, reply.answer.inside, compare, nearest_, rounded);
     if (v != Right || way == Many) return v;

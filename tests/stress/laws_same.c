@@ -45,6 +45,48 @@ static said *many(trial *t, const scene *s, size_t n, const quoin_ray *rays, uns
   return out;
 }
 
+/* First boundaries in short, whether rays are blocked, many rays as decimals: as the intervals say. */
+static void other_calls(trial *t) {
+  scene s;
+  whole_model(t);
+  if (!scene_open(t, t->first.at, 1, &s)) {
+    return;
+  }
+  quoin_spot spots[RAYS], near[RAYS];
+  uint8_t blocked[RAYS];
+  quoin_status status = quoin_first_spots(s.scene, s.work, t->n, t->rays, QUOIN_WANT_T, spots);
+  if (status == QUOIN_OK) {
+    status = quoin_first_spots(s.scene, s.work, t->n, t->rays, 0, near);
+  }
+  if (status == QUOIN_OK) {
+    status = quoin_rays_blocked(s.scene, s.work, t->n, t->rays, NULL, blocked);
+  }
+  if (status != QUOIN_OK) {
+    blame(t, "spots: %s", quoin_status_text(status));
+  }
+  t->asked += 4 * t->n;
+  for (size_t i = 0; i < t->n && !t->wrong; i++) {
+    const quoin_ray *r = &t->rays[i];
+    said all;
+    quoin_hit want;
+    ask_one(&s, r, &all);
+    hit_of(&all, &want);
+    t->checks += 3;
+    char what[200];
+    snprintf(what, sizeof what, "ray %.17g %.17g %.17g  %.17g %.17g %.17g  from %g to %g", r->o[0], r->o[1], r->o[2], r->d[0], r->d[1], r->d[2], r->from, r->to);
+    if ((spots[i].surface != QUOIN_NO_SURFACE) != want.found || (want.found && ((int)spots[i].leaving != want.leaving || memcmp(&spots[i].t, &want.t, sizeof want.t) != 0))) {
+      blame(t, "spot: t %.17g leaving %d, interval: found %d t %.17g leaving %d: %s", spots[i].t, (int)spots[i].leaving, want.found, want.t, want.leaving, what);
+    }
+    if (near[i].surface != spots[i].surface || (want.found && near[i].leaving != spots[i].leaving)) {
+      blame(t, "spots with and without t: surfaces %u, %u: %s", spots[i].surface, near[i].surface, what);
+    }
+    if ((blocked[i] != 0) != (all.n != 0)) {
+      blame(t, "blocked %d, but %zu intervals: %s", (int)blocked[i], all.n, what);
+    }
+  }
+  scene_close(&s);
+}
+
 /* Alone through decimals (always woven), alone, 1, 8 and 64 at a time; first hits likewise. */
 static void batching(trial *t) {
   scene s;
@@ -391,6 +433,6 @@ static void split(trial *t) {
   scene_close(&s);
 }
 
-const law SAME_ANSWER_LAWS[] = {{"batching", batching, 1}, {"instruction sets", instruction_sets, 1}, {"grids", grids, 1}, {"threads", threads, 1},
+const law SAME_ANSWER_LAWS[] = {{"batching", batching, 1}, {"other calls", other_calls, 1}, {"instruction sets", instruction_sets, 1}, {"grids", grids, 1}, {"threads", threads, 1},
                                 {"operand order", operand_order, 1}, {"reversal", reversal, 0}, {"split", split, 0}};
 const size_t SAME_ANSWER_COUNT = sizeof SAME_ANSWER_LAWS / sizeof *SAME_ANSWER_LAWS;

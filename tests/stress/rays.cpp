@@ -121,9 +121,11 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     Ray first;
     if (!aim(r, b->spots, line) || !to_ray(line, first)) continue;
     int kind = r.below(Bundles), way = r.below(100);
-    way = way < 20 ? One : way < 50 ? Many : way < 65 ? ManyBoundary : way < 85 ? Hits : way < 92 ? Hit : Text;
+    way = way < 15 ? One : way < 40 ? Many : way < 52 ? ManyBoundary : way < 64 ? Hits : way < 71 ? Hit : way < 74 ? Text : way < 84 ? Spots : way < 94 ? Blocked : ManyText;
     size_t n = kind == Alone ? 1 : way == Text ? 4 : (size_t)(r.chance(50) ? 64 : r.chance(50) ? r.range(1, 63) : r.range(65, 140));
     bundle(r, first, kind, n, b->spots, rays);
+    if (way == ManyText)
+      for (auto &x : rays) x.from = rays[0].from, x.to = rays[0].to;
     int isa = r.below(3);
     double t0 = now();
     auto replies = ask_rays(b->model, b->work(isa), rays, way);
