@@ -193,7 +193,7 @@ int main(int argc, char **argv) {
     fprintf(stderr, "%llu rays, %llu wrong\n", t.rays, t.wrong);
     return t.wrong != 0;
   }
-  Random seeds(o.seed * 0x9E3779B97F4A7C15u + 1);
+  Random seeds(Random(o.seed).next()); // far apart in one sequence: neighbours must not share models
   double begin = now();
   for (long k = 0; o.models ? k < o.models : now() - begin < o.seconds; k++) {
     one_model(seeds.next(), o, t);
