@@ -65,7 +65,7 @@ static void table_free(qn_near_table *t, qn_mem *mem) {
 
 static int64_t cell(double v, double width) {
   double c = floor(v / width);
-  return c < 0x1p62 ? c > -0x1p62 ? (int64_t)c : -((int64_t)1 << 62) : (int64_t)1 << 62; /* beyond, all are in one cell */
+  return c < 0x1p60 ? c > -0x1p60 ? (int64_t)c : -((int64_t)1 << 60) : (int64_t)1 << 60; /* beyond, all are in one cell; differences do not overflow */
 }
 
 /* --- the index ------------------------------------------------------------------------------------------------------- */

@@ -155,6 +155,18 @@ static void box_of_a_tilted_cap(void **unused) {
   quoin_scene_free(s);
 }
 
+/* Places so far out that their cells cannot be counted: the search once went through 2^63 of them. */
+static void far_out(void **unused) {
+  (void)unused;
+  quoin_scene *s = snapped("translate([1e300,0,0]) wedge([2,0.1,1/3]); rotate([0,0,1e-4]) translate([1e300,0,0]) wedge([2,0.1,1/3]); halfspace([0.3,1e300,1],sqrt(2)); "
+                           "ellipsoid([1e300,1/3,3]); translate([-1e300,1e-300,0]) ellipsoid([1e300,1/3,3]); cylinder(h=3,r1=1e-300,r2=7); cube(1e-3);",
+                           "1", 1);
+  quoin_near_list *list;
+  assert_int_equal(quoin_near_find(s, NULL, &list), QUOIN_OK);
+  quoin_near_free(list);
+  quoin_scene_free(s);
+}
+
 static void bad_limits(void **unused) {
   (void)unused;
   const struct { const char *limit; quoin_status status; } rows[] = {
@@ -502,7 +514,7 @@ static void property_of_round_solids(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gaps_by_hand), cmocka_unit_test(where_surfaces_go), cmocka_unit_test(to_the_nearest), cmocka_unit_test(box_of_a_tilted_cap), cmocka_unit_test(bad_limits),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaps_by_hand), cmocka_unit_test(where_surfaces_go), cmocka_unit_test(to_the_nearest), cmocka_unit_test(far_out), cmocka_unit_test(box_of_a_tilted_cap), cmocka_unit_test(bad_limits),
                                      cmocka_unit_test(memory_refused), cmocka_unit_test(stopped),
                                      cmocka_unit_test(property_of_boxes), cmocka_unit_test(property_of_round_solids)};
   return cmocka_run_group_tests(tests, NULL, NULL);
