@@ -1,4 +1,4 @@
-/* Surfaces that nearly coincide (design S4): what their gap is, and how near ones are found. docs/decisions/0006-snap.md. */
+/* Surfaces that nearly coincide (design S4): what their gap is, and how near ones are found. docs/decisions/0007-snap.md. */
 #ifndef QN_SCENE_NEAR_H
 #define QN_SCENE_NEAR_H
 
@@ -45,7 +45,7 @@ typedef enum qn_near_want {
 QN_NODISCARD quoin_status qn_near_find(const quoin_scene *scene, qn_num limit, qn_near_want want, qn_near_pairs *out);
 void qn_near_pairs_free(qn_near_pairs *pairs, qn_mem *mem);
 
-/* The limit of `quoin check`: how far apart two six-digit roundings of one number of the scene may be (docs/decisions/0006-snap.md). */
+/* The limit of `quoin check`: how far apart two six-digit roundings of one number of the scene may be (docs/decisions/0007-snap.md). */
 double qn_near_usual(const quoin_scene *scene);
 
 #endif

@@ -1,4 +1,4 @@
-/* Snapping (design S4): surfaces of a scene moved onto others within a limit, when the user asks. docs/decisions/0006-snap.md.
+/* Snapping (design S4): surfaces of a scene moved onto others within a limit, when the user asks. docs/decisions/0007-snap.md.
 
    The leaves are made once to see which surfaces they have (the survey); near.c says which move; the scene is then made anew, each
    moved half-space being, from its exact form on, that of the surface that stands. So whatever comes after does not know of snapping. */

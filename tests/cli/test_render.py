@@ -110,7 +110,8 @@ class Pictures(Case):
         """A blank picture is written, and a warning says so, with its reason and a way out; not when asked to be quiet."""
         away = ["--camera", "0,-40,0,0,-80,0"]
         for text, args, words in (("", [], ["the solid is empty"]),
-                                  ("difference() { cube(10); cube(10); }", [], ["no ray of the camera", "with --camera"]),
+                                  ("difference() { cube(10); cube(10); }", [], ["the solid is empty"]),
+                                  ("intersection() { sphere(1); translate([1.9, 1.9, 0]) sphere(1.2); }", [], ["no ray of the camera", "with --camera"]),
                                   (BALL, away, ["no ray of the camera", "leave --camera out"]),
                                   ("camera(eye = [0, -40, 0], look = [0, -80, 0]); " + BALL, [], ["no ray of the camera", "with --camera"])):
             out, model = self.folder / "blank.png", self.model(text)
