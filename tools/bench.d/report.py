@@ -255,7 +255,7 @@ def goals(results):
         goal('%s: `grid`, times POV-Ray' % n, get(n, 'grid') / get(n, 'povray'), times)
     for n in unique(read(results, 'scenes'), 'scene'):
         goal('%s: all intervals, share of the first-hit rate' % n, get(n, 'intervals') / get(n, 'grid-t'), 0.5)
-        goal('%s: shadow rays, share of camera rays' % n, get(n, 'shadow') / get(n, 'grid'), 0.25)
+        goal('%s: shadow rays (`blocked`), share of camera rays' % n, get(n, 'blocked') / get(n, 'grid'), 0.25)
         goal('%s: incoherent rays as arrays, times the single path' % n, get(n, 'random') / get(n, 'random-single'), 1)
     goal('menger4: all intervals, million a second', get('menger4', 'intervals'), 10)
     goal('spheres10k: points, million a second', get('spheres10k', 'points'), 20)
