@@ -275,7 +275,8 @@ QN_INLINE int push_children(const walk *w, uint32_t node, unsigned meets, const 
     stack[j] = (waiting){near[c], child, node, c};
     if (child & QN_BVH_LEAF) {
       const uint32_t line = w->scene->plain[child & ~QN_BVH_LEAF];
-      line != UINT32_MAX ? QN_FETCH(piece_in(w, line)) : QN_FETCH(&w->normal->terms[child & ~QN_BVH_LEAF]);
+      const void *next = line != UINT32_MAX ? (const void *)piece_in(w, line) : &w->normal->terms[child & ~QN_BVH_LEAF];
+      QN_FETCH(next);
     } else {
       QN_FETCH(&w->normal->nodes[child]), QN_FETCH(w->normal->nodes[child].max), QN_FETCH(&w->normal->nodes[child].max[2]);
     }

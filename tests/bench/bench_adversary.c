@@ -369,7 +369,7 @@ static int run(const family *f, size_t rays_wanted, size_t judged, double second
   tree t = {0};
   quoin_scene *scene;
   quoin_work *work;
-  qn_scratch *scratch;
+  qn_scratch *scratch = NULL;
   must(quoin_model_new(NULL, &t.model) == QUOIN_OK);
   f->make(&t, &g, tiny ? f->tiny : f->n);
   quoin_compile_options how = {.threads = 1};

@@ -24,7 +24,7 @@ static void compare(trial *t, const char *what) {
       alike(t, &x, &y, SAME_T, what, r);
       for (size_t e = 0; e <= 2 * x.n && e < ENDS && e < 5 && !t->wrong; e++) { /* the origin, and places of ends, which on the lattice are often exact */
         double p[3], at = e == 0 ? 0 : x.end[e - 1].t;
-        quoin_side s1, s2;
+        quoin_side s1 = QUOIN_OUTSIDE, s2 = QUOIN_OUTSIDE;
         if (!isfinite(at)) {
           continue;
         }
@@ -153,7 +153,7 @@ static void complement(trial *t) {
         alike(t, &x, &y, SAME_T, "inside, boundary and complement do not tile the ray", r);
         blame(t, "inside, boundary and complement do not tile the ray");
       }
-      quoin_side s1, s2;
+      quoin_side s1 = QUOIN_OUTSIDE, s2 = QUOIN_OUTSIDE;
       if (quoin_point_side(a.scene, a.work, r->o, &s1) != QUOIN_OK || quoin_point_side(b.scene, b.work, r->o, &s2) != QUOIN_OK || s1 + s2 != 2) {
         blame(t, "complement: the side of %.17g %.17g %.17g: %d, %d", r->o[0], r->o[1], r->o[2], (int)s1, (int)s2);
       }
