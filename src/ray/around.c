@@ -1,6 +1,7 @@
 /* The side of a point that lies on surfaces: the program asked in every cell next to it (design S6). */
 #include "ray/around_cells.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static qn_xint coefficient(const qn_exact_surface *s, int i) {
@@ -58,61 +59,85 @@ void qn_surface_germ_at(qn_ctx *ctx, const qn_exact_surface *surface, const qn_p
 
 /* --- the program, in one cell after another ------------------------------------------------------------------------ */
 
+/* A half-space that vanishes at the point, in the order of surfaces. */
+typedef struct vanishing { uint32_t surface, leaf; int8_t side; } vanishing; /* leaf: its number among the near ones */
+
 typedef struct asking {
   const quoin_scene *scene;
   qn_eval *eval;
   const qn_near_leaf *leaves;
   size_t leaf_count;
-  const uint32_t *near_halves;
-  uint32_t *index;  /* by near half: its surface's number here */
-  uint8_t *inside;  /* by near leaf: its state in the program now */
-  int value;        /* the program's now */
-  unsigned seen;    /* 1: outside was met, 2: inside was */
+  vanishing *halves;  /* by surface */
+  uint32_t *surfaces; /* each once */
+  uint32_t *first;    /* by surface, and one more: of its halves */
+  size_t n;           /* surfaces */
+  int8_t *signs;      /* by surface: in the program now; 0: none yet, its half-spaces fail */
+  uint32_t *failing;  /* by near leaf: its vanishing half-spaces that do not hold now */
+  int value;          /* the program's now */
+  unsigned seen;      /* 1: outside was met, 2: inside was */
 } asking;
 
 static void set_leaf(asking *a, size_t i, int inside) {
   const qn_leaf *leaf = &a->scene->leaves[a->leaves[i].leaf];
-  if (a->inside[i] != inside && leaf->gate != QN_NO_GATE) {
-    a->inside[i] = (uint8_t)inside;
+  if (leaf->gate != QN_NO_GATE) {
     a->value = qn_eval_change(a->eval, leaf->gate, inside != leaf->negated);
   }
 }
 
+/* From one cell to another: what changes with the surfaces whose sides differ. */
 static int ask(void *user, const int8_t *signs) {
   asking *a = user;
-  for (size_t i = 0; i < a->leaf_count; i++) {
-    const qn_near_leaf *leaf = &a->leaves[i];
-    int inside = 1;
-    for (uint32_t k = leaf->first; k < leaf->first + leaf->count && inside; k++) {
-      inside = a->scene->halves[a->near_halves[k]].side * signs[a->index[k]] < 0;
+  for (size_t i = 0; i < a->n; i++) {
+    if (a->signs[i] == signs[i]) {
+      continue;
     }
-    if (leaf->count != 0) {
-      set_leaf(a, i, inside);
+    for (uint32_t k = a->first[i]; k < a->first[i + 1]; k++) {
+      const vanishing *h = &a->halves[k];
+      int held = h->side * a->signs[i] < 0, holds = h->side * signs[i] < 0;
+      if (holds && !held && --a->failing[h->leaf] == 0) {
+        set_leaf(a, h->leaf, 1);
+      } else if (held && !holds && a->failing[h->leaf]++ == 0) {
+        set_leaf(a, h->leaf, 0);
+      }
     }
+    a->signs[i] = signs[i];
   }
   a->seen |= a->value ? 2u : 1u;
   return a->seen == 3;
 }
 
-/* Numbers the distinct surfaces of the near halves; their count. */
-static size_t number_surfaces(asking *a, size_t near_count, uint32_t *surfaces) {
-  size_t n = 0;
-  for (size_t k = 0; k < near_count; k++) {
-    uint32_t surface = a->scene->halves[a->near_halves[k]].surface;
-    size_t i = 0;
-    while (i < n && surfaces[i] != surface) {
-      i++;
-    }
-    if (i == n) {
-      surfaces[n++] = surface;
-    }
-    a->index[k] = (uint32_t)i;
-  }
-  return n;
+static int by_surface(const void *x, const void *y) {
+  const vanishing *a = x, *b = y;
+  return a->surface != b->surface ? (a->surface > b->surface) - (a->surface < b->surface) : (a->leaf > b->leaf) - (a->leaf < b->leaf);
 }
 
-static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point, size_t n, const uint32_t *surfaces) {
+/* The half-spaces that vanish, by their surfaces. */
+static void gather(asking *a, const uint32_t *near_halves) {
+  size_t count = 0;
+  for (size_t i = 0; i < a->leaf_count; i++) {
+    const qn_near_leaf *leaf = &a->leaves[i];
+    a->failing[i] = leaf->count;
+    for (uint32_t k = leaf->first; k < leaf->first + leaf->count; k++) {
+      const qn_half *half = &a->scene->halves[near_halves[k]];
+      a->halves[count++] = (vanishing){half->surface, (uint32_t)i, half->side};
+    }
+  }
+  if (count > 1) {
+    qsort(a->halves, count, sizeof *a->halves, by_surface);
+  }
+  for (size_t k = 0; k < count; k++) {
+    if (k == 0 || a->halves[k].surface != a->halves[k - 1].surface) {
+      a->first[a->n] = (uint32_t)k;
+      a->surfaces[a->n++] = a->halves[k].surface;
+    }
+  }
+  a->first[a->n] = (uint32_t)count;
+}
+
+static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point) {
   const quoin_scene *scene = a->scene;
+  const uint32_t *surfaces = a->surfaces;
+  const size_t n = a->n;
   qn_germ *germs = qn_arena_take(&ctx->arena, n * sizeof *germs);
   if (!germs) {
     return QUOIN_E_MEMORY;
@@ -155,26 +180,28 @@ quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_p
   qn_ctx *ctx = qn_scratch_ctx(scratch);
   qn_eval *eval = qn_scratch_eval(scratch);
   qn_mark mark = qn_arena_mark(&ctx->arena);
-  asking a = {.scene = scene, .eval = eval, .leaves = leaves, .leaf_count = leaf_count, .near_halves = near_halves, .value = eval->value};
-  uint32_t *surfaces = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *surfaces);
-  a.index = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.index);
-  a.inside = qn_arena_take(&ctx->arena, leaf_count + 1);
-  if (!surfaces || !a.index || !a.inside) {
+  asking a = {.scene = scene, .eval = eval, .leaves = leaves, .leaf_count = leaf_count, .value = eval->value};
+  a.halves = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.halves);
+  a.surfaces = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.surfaces);
+  a.first = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.first);
+  a.signs = qn_arena_take(&ctx->arena, near_count + 1);
+  a.failing = qn_arena_take(&ctx->arena, (leaf_count + 1) * sizeof *a.failing);
+  if (!a.halves || !a.surfaces || !a.first || !a.signs || !a.failing) {
     qn_arena_release(&ctx->arena, mark);
     return QUOIN_E_MEMORY;
   }
-  memset(a.inside, 0, leaf_count + 1);
+  memset(a.signs, 0, near_count + 1);
+  gather(&a, near_halves);
   for (size_t i = 0; i < leaf_count; i++) {
     if (leaves[i].count == 0) {
       set_leaf(&a, i, 1);
     }
   }
   quoin_status status = QUOIN_OK;
-  size_t n = number_surfaces(&a, near_count, surfaces);
-  if (n == 0) {
+  if (a.n == 0) {
     a.seen = a.value ? 2u : 1u;
   } else {
-    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point, n, surfaces);
+    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point);
   }
   qn_eval_reset(eval);
   qn_arena_release(&ctx->arena, mark);

@@ -252,13 +252,18 @@ static int independent(qn_cells *cells) {
   if (cells->class_count > 3) {
     return 0;
   }
-  qn_int across[3];
-  qn_cross_int(cells->ctx, cells->classes[1].normal, cells->classes[2].normal, across);
-  return qn_x_sign(qn_dot_x(cells->ctx, cells->germs[cells->classes[0].first].g, across)) != 0;
+  const qn_germ *germs = cells->germs;
+  const qn_class *classes = cells->classes;
+  qn_xint across[3];
+  qn_cross_x(cells->ctx, germs[classes[1].first].g, germs[classes[2].first].g, across);
+  return qn_x_sign(qn_product_x(cells->ctx, germs[classes[0].first].g, across)) != 0;
 }
 
 int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user) {
   qn_cells cells = {.ctx = ctx, .n = n, .germs = germs, .emit = emit, .user = user};
+  if (qn_cells_fan(ctx, n, germs, emit, user) || ctx->failed != QUOIN_OK) {
+    return ctx->failed == QUOIN_OK;
+  }
   cells.signs = qn_arena_take(&ctx->arena, 2 * n + 1);
   cells.order = qn_arena_take(&ctx->arena, (2 * n + 1) * sizeof *cells.order);
   cells.classes = qn_arena_take(&ctx->arena, (n + 1) * sizeof *cells.classes);

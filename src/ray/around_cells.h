@@ -65,11 +65,18 @@ enum { QN_CELLS_OPEN = 12 };
    0: given up (QN_CELLS_OPEN, QN_CELLS_WORK). ctx->failed tells of failure. Cost: about n^3 products in the worst case. */
 int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user);
 
+/* The same for three planes or more of which all but at most one hold one line (around_fan.c): exactly the cells, in about n log n products. 0: the
+   germs are not such, and none was given. Of germs it reads g and `plane`. */
+int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user);
+
 /* --- forms and vectors (around_form.c) --- */
 qn_int qn_settled(qn_xint a); /* the value, 0 when its sign is 0 by S2: nothing of a rounding is left to be read as a length */
 qn_xint qn_dot_x(qn_ctx *ctx, const qn_xint g[3], const qn_int v[3]);
 qn_xint qn_form_x(qn_ctx *ctx, const qn_xint h[6], const qn_int u[3], const qn_int v[3]); /* uᵗHv */
 void qn_form_apply(qn_ctx *ctx, const qn_xint h[6], const qn_int v[3], qn_xint out[3]);   /* Hv */
+/* The same with what S2 rounded still known of each term: a product of three normals is 0 when they are in one plane by that rule. */
+void qn_cross_x(qn_ctx *ctx, const qn_xint a[3], const qn_xint b[3], qn_xint out[3]); /* not in place */
+qn_xint qn_product_x(qn_ctx *ctx, const qn_xint a[3], const qn_xint b[3]);
 void qn_cross_int(qn_ctx *ctx, const qn_int a[3], const qn_int b[3], qn_int out[3]);
 /* a v + b w */
 void qn_combine_int(qn_ctx *ctx, qn_int a, const qn_int v[3], qn_int b, const qn_int w[3], qn_int out[3]);

@@ -36,6 +36,19 @@ void qn_cross_int(qn_ctx *ctx, const qn_int a[3], const qn_int b[3], qn_int out[
   out[0] = c[0], out[1] = c[1], out[2] = c[2];
 }
 
+void qn_cross_x(qn_ctx *ctx, const qn_xint a[3], const qn_xint b[3], qn_xint out[3]) {
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    out[i] = qn_x_sub(ctx, qn_x_mul(ctx, a[j], b[k]), qn_x_mul(ctx, a[k], b[j]));
+  }
+}
+
+qn_xint qn_product_x(qn_ctx *ctx, const qn_xint a[3], const qn_xint b[3]) {
+  qn_xint sum = qn_x_mul(ctx, a[0], b[0]);
+  sum = qn_x_add(ctx, sum, qn_x_mul(ctx, a[1], b[1]));
+  return qn_x_add(ctx, sum, qn_x_mul(ctx, a[2], b[2]));
+}
+
 void qn_combine_int(qn_ctx *ctx, qn_int a, const qn_int v[3], qn_int b, const qn_int w[3], qn_int out[3]) {
   for (int i = 0; i < 3; i++) {
     out[i] = qn_int_add(ctx, qn_int_mul(ctx, a, v[i]), qn_int_mul(ctx, b, w[i]));

@@ -1,13 +1,186 @@
 /* Stretches of a line that runs in surfaces (S7).
 
-   Between two events nothing changes along the line, so one point of a stretch stands for it; a rational one is taken. What
-   the solid is next to it, with the surfaces in which the line runs as unknown sides, is the question of S6: inside if
-   all realisable sides say so, outside likewise, else the stretch lies in the boundary. Only stretches on which a leaf with
-   such a surface is undecided are asked about; on the others the program decides as ever. */
-#include "ray/around.h"
+   Between two events nothing changes along the line, so one point of a stretch stands for it. What the solid is next to it, with the
+   surfaces in which the line runs as unknown sides, is the question of S6: inside if all realisable combinations of sides (cells) say
+   so, outside likewise, else the stretch lies in the boundary.
+
+   Mostly the cells are the same all along the line. Then the line is woven once in each cell, those surfaces taken at its signs, and what
+   the weaves say at an event is what S6 says after it: however many leaves share a face, each costs a few steps of the program. Why they are the same:
+   - planes: which they are does not depend on the place. Two have all four combinations, more are a fan about the line (around_fan.c);
+   - one quadric: it has both signs next to every place, but where its form is semidefinite everywhere. For its gradient on the line is linear in t:
+     it is zero at one place at most, where both signs come near, or everywhere, and then the surface does not change along the line;
+   - two surfaces whose gradients are parallel at single places only: all four combinations elsewhere, and so there too, where others might be
+     added that no stretch of the line has;
+   - two that do not change along the line (cylinders that touch along it: H d = 0, so q(x + t d) = q(x)).
+   Else cells are listed at a rational point of each stretch on which a leaf with such a surface is undecided. */
+#include "ray/around_cells.h"
 #include "ray/scratch.h"
 
 #include <math.h>
+#include <string.h>
+
+/* --- in one cell after another --------------------------------------------------------------------------------------- */
+
+/* A half-space in whose surface the line runs: its q is `side` times the form of the surface with this number here. */
+typedef struct literal { uint32_t surface; int8_t side; } literal;
+
+/* Events, and what the solid is after each, in the cells that were given. */
+typedef struct weaving {
+  qn_scratch *s;
+  const qn_event *events;
+  size_t count;
+  size_t *first;      /* by event, and one more: of its leaf's literals */
+  literal *literals;
+  uint32_t *surfaces; /* of the scene: those in which the line runs */
+  size_t n;
+  uint8_t *seen;      /* by event: 1: after it the solid is away in some cell, 2: there in some */
+} weaving;
+
+static int make_weaving(weaving *w, qn_scratch *s, const qn_event *events, size_t count) {
+  qn_arena *arena = &s->ctx.arena;
+  size_t halves = 0;
+  for (size_t i = 0; i < count; i++) {
+    halves += events[i].vague ? s->scene->leaves[events[i].leaf].halves : 0;
+  }
+  *w = (weaving){.s = s, .events = events, .count = count};
+  w->first = qn_arena_take(arena, (count + 1) * sizeof *w->first);
+  w->literals = qn_arena_take(arena, (halves + 1) * sizeof *w->literals);
+  w->surfaces = qn_arena_take(arena, (s->solved_count + 1) * sizeof *w->surfaces);
+  w->seen = qn_arena_take(arena, count + 1);
+  uint32_t *number = qn_arena_take(arena, (s->solved_count + 1) * sizeof *number); /* by solved surface, and one more */
+  if (!w->first || !w->literals || !w->surfaces || !w->seen || !number) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    return 0;
+  }
+  memset(w->seen, 0, count + 1);
+  memset(number, 0, (s->solved_count + 1) * sizeof *number);
+  halves = 0;
+  for (size_t i = 0; i < count; i++) {
+    const qn_leaf *leaf = &s->scene->leaves[events[i].leaf];
+    w->first[i] = halves;
+    for (uint32_t h = leaf->half0; events[i].vague && h < leaf->half0 + leaf->halves; h++) {
+      const qn_half *half = &s->scene->halves[h];
+      uint32_t solved = s->memo[half->surface].solved;
+      if (s->solved[solved].sign != 0) {
+        continue;
+      }
+      if (number[solved] == 0) {
+        w->surfaces[w->n++] = half->surface;
+        number[solved] = (uint32_t)w->n;
+      }
+      w->literals[halves++] = (literal){number[solved] - 1, half->side};
+    }
+  }
+  w->first[count] = halves;
+  return 1;
+}
+
+static int weave_in_cell(void *user, const int8_t *signs) {
+  weaving *w = user;
+  qn_eval *eval = &w->s->eval;
+  const qn_leaf *leaves = w->s->scene->leaves;
+  unsigned all = 3;
+  for (size_t i = 0; i < w->count; i++) {
+    const qn_event *e = &w->events[i];
+    int holds = 1;
+    for (size_t k = w->first[i]; k < w->first[i + 1] && holds; k++) {
+      holds = w->literals[k].side * signs[w->literals[k].surface] < 0;
+    }
+    if (holds) {
+      (void)qn_eval_change(eval, leaves[e->leaf].gate, e->enter != leaves[e->leaf].negated ? 1 : -1);
+    }
+    w->seen[i] |= eval->value ? 2u : 1u;
+    all &= w->seen[i];
+  }
+  qn_eval_reset(eval);
+  return all == 3;
+}
+
+static quoin_side side_seen(unsigned seen) {
+  return seen == 3 ? QUOIN_BOUNDARY : seen == 2 ? QUOIN_INSIDE : QUOIN_OUTSIDE;
+}
+
+/* --- cells that are the same all along the line ---------------------------------------------------------------------- */
+
+/* The germs of the surfaces at the point t of the line; 0: memory. */
+static int germs_at(weaving *w, int t, qn_germ *germs) {
+  qn_scratch *s = w->s;
+  qn_ctx *ctx = &s->ctx;
+  qn_line_make_exact(ctx, s->line);
+  qn_point point = {.w = s->line->w};
+  for (int j = 0; j < 3; j++) {
+    point.x[j] = qn_int_add(ctx, s->line->origin[j], qn_int_mul(ctx, s->line->direction[j], qn_int_from(ctx, t)));
+  }
+  for (size_t i = 0; i < w->n; i++) {
+    int made = 0;
+    const qn_exact_surface *form = qn_scene_exact(s->scene, w->surfaces[i], &made);
+    s->counts.exact_forms += (uint64_t)made;
+    if (!form) {
+      qn_scratch_fail(s, QUOIN_E_MEMORY);
+      return 0;
+    }
+    qn_surface_germ_at(ctx, form, &point, &germs[i]);
+  }
+  return ctx->failed == QUOIN_OK;
+}
+
+/* Whether a surface that holds the line is the same all along it. */
+static int unchanged(qn_scratch *s, const qn_germ *germ) {
+  qn_xint image[3];
+  qn_form_apply(&s->ctx, germ->h, s->line->direction, image);
+  return qn_x_sign(image[0]) == 0 && qn_x_sign(image[1]) == 0 && qn_x_sign(image[2]) == 0;
+}
+
+static void weave_in_all(weaving *w) {
+  for (int k = 0; k < 1 << w->n; k++) {
+    const int8_t signs[2] = {(int8_t)(k & 1 ? 1 : -1), (int8_t)(k & 2 ? 1 : -1)};
+    if (weave_in_cell(w, signs)) {
+      return;
+    }
+  }
+}
+
+/* Weaves in each cell of the line. 0: its cells are not known to be the same everywhere, or a failure. */
+static int weave_in_cells(weaving *w) {
+  qn_scratch *s = w->s;
+  int planes = 1;
+  for (size_t i = 0; i < w->n; i++) {
+    planes &= s->scene->surfaces[w->surfaces[i]].kind == QN_PLANE;
+  }
+  if (planes && w->n <= 2) { /* no need of their forms */
+    weave_in_all(w);
+    return 1;
+  }
+  if (!planes && w->n > 2) {
+    return 0;
+  }
+  qn_germ *germs = qn_arena_take(&s->ctx.arena, w->n * sizeof *germs);
+  if (!germs) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    return 0;
+  }
+  if (w->n == 2) {
+    for (int t = -1; t <= 1; t++) { /* the gradients' cross product is quadratic in t: not zero at all three, or zero everywhere */
+      if (!germs_at(w, t, germs)) {
+        return 0;
+      }
+      if (!qn_parallel_x(&s->ctx, germs[0].g, germs[1].g)) {
+        weave_in_all(w);
+        return 1;
+      }
+    }
+    if (!unchanged(s, &germs[0]) || !unchanged(s, &germs[1])) {
+      return 0;
+    }
+  }
+  if (!germs_at(w, 0, germs)) {
+    return 0;
+  }
+  int listed = planes ? qn_cells_fan(&s->ctx, w->n, germs, weave_in_cell, w) : qn_cells_list(&s->ctx, w->n, germs, weave_in_cell, w);
+  return listed && s->ctx.failed == QUOIN_OK;
+}
+
+/* --- cells that are asked for at each stretch ------------------------------------------------------------------------ */
 
 typedef struct active { uint32_t leaf; uint8_t vague; } active;
 
@@ -19,9 +192,9 @@ typedef struct state {
   size_t half_capacity;
 } state;
 
-static void toggle(qn_scratch *s, state *st, const qn_event *e) {
+static void toggle(qn_scratch *s, state *st, const qn_event *e, int enter) {
   const qn_leaf *leaf = &s->scene->leaves[e->leaf];
-  if (e->enter) {
+  if (enter) {
     st->leaves[st->count++] = (active){e->leaf, e->vague};
     st->vague += e->vague;
   } else {
@@ -35,20 +208,24 @@ static void toggle(qn_scratch *s, state *st, const qn_event *e) {
     }
   }
   if (!e->vague) {
-    (void)qn_eval_change(&s->weave, leaf->gate, e->enter != leaf->negated ? 1 : -1);
+    (void)qn_eval_change(&s->weave, leaf->gate, enter != leaf->negated ? 1 : -1);
   }
+}
+
+static void point_between(qn_scratch *s, const qn_bound *a, const qn_bound *b, qn_point *point) {
+  qn_int num, den;
+  qn_bound_between(s, a, b, &num, &den);
+  qn_line_make_exact(&s->ctx, s->line);
+  for (int j = 0; j < 3; j++) {
+    point->x[j] = qn_int_add(&s->ctx, qn_int_mul(&s->ctx, s->line->origin[j], den), qn_int_mul(&s->ctx, s->line->direction[j], num));
+  }
+  point->w = qn_int_mul(&s->ctx, s->line->w, den);
 }
 
 /* The side at a point between a and b, where the leaves of the state hold. */
 static quoin_side side_between(qn_scratch *s, state *st, const qn_bound *a, const qn_bound *b) {
-  qn_int num, den;
-  qn_bound_between(s, a, b, &num, &den);
-  qn_line_make_exact(&s->ctx, s->line);
   qn_point point;
-  for (int j = 0; j < 3; j++) {
-    point.x[j] = qn_int_add(&s->ctx, qn_int_mul(&s->ctx, s->line->origin[j], den), qn_int_mul(&s->ctx, s->line->direction[j], num));
-  }
-  point.w = qn_int_mul(&s->ctx, s->line->w, den);
+  point_between(s, a, b, &point);
   size_t halves = 0;
   for (size_t i = 0; i < st->count; i++) {
     const qn_leaf *leaf = &s->scene->leaves[st->leaves[i].leaf];
@@ -71,14 +248,13 @@ static quoin_side side_between(qn_scratch *s, state *st, const qn_bound *a, cons
   return side;
 }
 
-/* The side between two successive places, within the range: what was not woven outside of it must not be asked. Beside the range, up to its
+/* The part of [a, b] within the range: what was not woven outside of it must not be asked. Beside the range, up to its
    end, the leaves of the state are those next to that end; they say whether the solid ends there too. */
-static quoin_side side_of(qn_scratch *s, state *st, const qn_bound *a, const qn_bound *b, const qn_bound *from, const qn_bound *to) {
-  if (st->vague == 0) {
-    return s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
+static void narrow(qn_scratch *s, const qn_bound **a, const qn_bound **b, const qn_bound *from, const qn_bound *to) {
+  const qn_bound *low = qn_bound_cmp(s, *a, from) < 0 ? from : *a, *high = qn_bound_cmp(s, to, *b) < 0 ? to : *b;
+  if (qn_bound_cmp(s, low, high) < 0) {
+    *a = low, *b = high;
   }
-  const qn_bound *low = qn_bound_cmp(s, a, from) < 0 ? from : a, *high = qn_bound_cmp(s, to, b) < 0 ? to : b;
-  return qn_bound_cmp(s, low, high) < 0 ? side_between(s, st, low, high) : side_between(s, st, a, b);
 }
 
 static int make_state(qn_scratch *s, state *st) {
@@ -90,43 +266,141 @@ static int make_state(qn_scratch *s, state *st) {
   st->leaves = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *st->leaves);
   st->near = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *st->near);
   st->halves = qn_arena_take(&s->ctx.arena, (halves + 1) * sizeof *st->halves);
-  return st->leaves && st->near && st->halves;
+  if (!st->leaves || !st->near || !st->halves) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    return 0;
+  }
+  return 1;
+}
+
+/* Which of the group's n events made the side what it is after the last: woven from the state before the group on, in the cells at one point. */
+static size_t last_change(qn_scratch *s, state *st, const qn_event *group, size_t n, const qn_point *point, quoin_side now) {
+  qn_mark mark = qn_arena_mark(&s->ctx.arena);
+  for (size_t k = n; k-- > 0;) {
+    toggle(s, st, &group[k], !group[k].enter);
+  }
+  size_t last = 0, count = st->count + n;
+  qn_event *events = qn_arena_take(&s->ctx.arena, (count + 1) * sizeof *events);
+  weaving w;
+  if (!events) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    return 0;
+  }
+  for (size_t i = 0; i < st->count; i++) {
+    events[i] = (qn_event){.leaf = st->leaves[i].leaf, .enter = 1, .vague = st->leaves[i].vague};
+  }
+  memcpy(events + st->count, group, n * sizeof *events);
+  if (make_weaving(&w, s, events, count)) {
+    qn_germ *germs = qn_arena_take(&s->ctx.arena, (w.n + 1) * sizeof *germs);
+    for (size_t i = 0; germs && i < w.n; i++) {
+      const qn_exact_surface *form = qn_scene_exact(s->scene, w.surfaces[i], NULL);
+      if (!form) {
+        germs = NULL;
+        break;
+      }
+      qn_surface_germ_at(&s->ctx, form, point, &germs[i]);
+    }
+    int listed = 0;
+    if (!germs) {
+      qn_scratch_fail(s, QUOIN_E_MEMORY);
+    } else if (w.n == 0) {
+      (void)weave_in_cell(&w, NULL);
+      listed = 1;
+    } else {
+      listed = qn_cells_list(&s->ctx, w.n, germs, weave_in_cell, &w);
+    }
+    last = listed ? n - 1 : 0;
+    while (last > 0 && side_seen(w.seen[st->count + last - 1]) == now) {
+      last--;
+    }
+  }
+  for (size_t k = 0; k < n; k++) {
+    toggle(s, st, &group[k], group[k].enter);
+  }
+  qn_arena_release(&s->ctx.arena, mark);
+  return last;
+}
+
+/* --- the line --------------------------------------------------------------------------------------------------------- */
+
+static const qn_event BEGIN = {{-HUGE_VAL, 0, QN_NO_SOLVED, QN_NO_HALF, 0}, QN_NO_LEAF, 1, 0};
+static const qn_event END = {{HUGE_VAL, 0, QN_NO_SOLVED, QN_NO_HALF, 0}, QN_NO_LEAF, 0, 0};
+
+/* What the solid is between successive places, as it comes out. */
+typedef struct run { qn_event open; quoin_side side; } run;
+
+static void change(qn_scratch *s, run *r, const qn_event *here, quoin_side now, const qn_bound *from, const qn_bound *to) {
+  if (r->side != QUOIN_OUTSIDE) {
+    qn_weave_add(s, r->side == QUOIN_BOUNDARY, &r->open, here, from, to);
+  }
+  r->open = *here;
+  r->side = now;
+}
+
+/* Each end is named after the leaf at whose change the side last changed within its group, as where the line runs in no surface. */
+static void take_seen(qn_scratch *s, const weaving *w, const size_t *ends, run *r, const qn_bound *from, const qn_bound *to) {
+  for (size_t i = 0, end; i < w->count; i = end) {
+    end = ends[i];
+    quoin_side now = side_seen(w->seen[end - 1]);
+    if (now != r->side) {
+      size_t last = end - 1;
+      while (last > i && side_seen(w->seen[last - 1]) == now) {
+        last--;
+      }
+      change(s, r, &s->events[last], now, from, to);
+    }
+  }
+}
+
+static void take_stretches(qn_scratch *s, const size_t *ends, run *r, const qn_bound *from, const qn_bound *to) {
+  state st;
+  if (!make_state(s, &st)) {
+    return;
+  }
+  for (size_t i = 0, end; i < s->event_count && qn_scratch_status(s) == QUOIN_OK; i = end) {
+    end = ends[i];
+    for (size_t k = i; k < end; k++) {
+      toggle(s, &st, &s->events[k], s->events[k].enter);
+    }
+    const qn_bound *a = &s->events[i].at, *b = end < s->event_count ? &s->events[end].at : &END.at;
+    quoin_side now = s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
+    narrow(s, &a, &b, from, to);
+    if (st.vague != 0) {
+      now = side_between(s, &st, a, b);
+    }
+    if (now != r->side) {
+      qn_point point;
+      point_between(s, a, b, &point);
+      change(s, r, &s->events[i + last_change(s, &st, &s->events[i], end - i, &point, now)], now, from, to);
+    }
+  }
+  qn_eval_reset(&s->weave);
 }
 
 void qn_weave_coplanar(qn_scratch *s, const qn_bound *from, const qn_bound *to) {
-  const qn_event begin = {{-HUGE_VAL, 0, QN_NO_SOLVED, QN_NO_HALF, 0}, QN_NO_LEAF, 1, 0};
-  const qn_event end_of_line = {{HUGE_VAL, 0, QN_NO_SOLVED, QN_NO_HALF, 0}, QN_NO_LEAF, 0, 0};
-  state st;
-  if (!make_state(s, &st)) {
+  run r = {BEGIN, s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE};
+  weaving w;
+  size_t *ends = qn_arena_take(&s->ctx.arena, (s->event_count + 1) * sizeof *ends); /* by a group's first event */
+  if (!ends) {
     qn_scratch_fail(s, QUOIN_E_MEMORY);
     return;
   }
-  qn_event open = begin;
-  quoin_side side = s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
-  for (size_t i = 0, end; i < s->event_count && qn_scratch_status(s) == QUOIN_OK; i = end) {
-    end = qn_weave_group(s, i);
-    /* The group's changes are made one by one, so that the end is named after the leaf at whose change the side last changed, as
-       where the line runs in no surface. The next place: its group is put in order when its turn comes. */
-    const qn_bound *next = end < s->event_count ? &s->events[end].at : &end_of_line.at;
-    const qn_event *here = &s->events[i];
-    quoin_side now = side;
-    for (size_t k = i; k < end; k++) {
-      toggle(s, &st, &s->events[k]);
-      quoin_side then = side_of(s, &st, &s->events[i].at, next, from, to);
-      here = then != now ? &s->events[k] : here;
-      now = then;
-    }
-    if (now == side) {
-      continue;
-    }
-    if (side != QUOIN_OUTSIDE) {
-      qn_weave_add(s, side == QUOIN_BOUNDARY, &open, here, from, to);
-    }
-    open = *here;
-    side = now;
+  for (size_t i = 0; i < s->event_count; i = ends[i]) {
+    ends[i] = qn_weave_group(s, i);
   }
-  if (side != QUOIN_OUTSIDE) {
-    qn_weave_add(s, side == QUOIN_BOUNDARY, &open, &end_of_line, from, to);
+  if (!make_weaving(&w, s, s->events, s->event_count)) {
+    return;
   }
-  qn_eval_reset(&s->weave);
+  int fixed = weave_in_cells(&w);
+  if (qn_scratch_status(s) != QUOIN_OK) {
+    return;
+  }
+  if (fixed) {
+    take_seen(s, &w, ends, &r, from, to);
+  } else {
+    take_stretches(s, ends, &r, from, to);
+  }
+  if (r.side != QUOIN_OUTSIDE) {
+    qn_weave_add(s, r.side == QUOIN_BOUNDARY, &r.open, &END, from, to);
+  }
 }

@@ -446,6 +446,63 @@ static void many_planes(void **state) {
   }
 }
 
+/* Planes through one line, and one across it or none: twice as many cells as planes, twice that with one across, and those that directions
+   around the point have. */
+static void fans(void **state) {
+  (void)state;
+  enum { REACH = 8, FAR = 3 };
+  seed = 0x9e3779b97f4a7c15u;
+  for (int round = 0; round < 300; round++) {
+    surface s[MOST];
+    int axis[3], lines = 3 + below(MOST - 3), with = below(2), n = lines + with, across = with ? below(n) : n;
+    do {
+      for (int k = 0; k < 3; k++) {
+        axis[k] = below(3) - 1;
+      }
+    } while (axis[0] == 0 && axis[1] == 0 && axis[2] == 0);
+    for (int i = 0; i < n;) {
+      int g[3], dot = 0, fresh = 1;
+      for (int k = 0; k < 3; k++) {
+        g[k] = below(2 * FAR + 1) - FAR;
+        dot += g[k] * axis[k];
+      }
+      s[i] = (surface){{[6] = g[0], [7] = g[1], [8] = g[2]}};
+      for (int k = 0; k < i; k++) {
+        const int *h = &s[k].q[6];
+        fresh &= g[0] * h[1] != g[1] * h[0] || g[1] * h[2] != g[2] * h[1] || g[0] * h[2] != g[2] * h[0];
+      }
+      i += fresh && (g[0] != 0 || g[1] != 0 || g[2] != 0) && (dot == 0) == (i != across);
+    }
+    world w;
+    open_world(&w);
+    for (int rounded = 0; rounded < 2; rounded++) {
+      listed a = cells_at(&w.ctx, (size_t)n, s, ORIGIN, 1, rounded);
+      int cells = 0;
+      uint8_t there[1 << MOST] = {0};
+      for (int x = -REACH; x <= REACH; x++) {
+        for (int y = -REACH; y <= REACH; y++) {
+          for (int z = -REACH; z <= REACH; z++) {
+            unsigned code = 0;
+            int between = 1;
+            for (int i = 0; i < n; i++) {
+              int dot = s[i].q[6] * x + s[i].q[7] * y + s[i].q[8] * z;
+              between &= dot != 0;
+              code |= (unsigned)(dot > 0) << i;
+            }
+            there[code] |= (uint8_t)between;
+          }
+        }
+      }
+      for (unsigned code = 0; code < 1u << n; code++) {
+        assert_true(!there[code] || a.there[code]);
+        cells += a.there[code];
+      }
+      assert_int_equal(cells, with ? 4 * lines : 2 * lines);
+    }
+    close_world(&w);
+  }
+}
+
 /* Every order of the surfaces, and every choice of their signs, gives the same cells. */
 static void orders(void **state) {
   (void)state;
@@ -492,7 +549,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(wall), cmocka_unit_test(corners), cmocka_unit_test(planes_through_a_line), cmocka_unit_test(spheres_that_touch),
     cmocka_unit_test(plane_that_touches), cmocka_unit_test(sphere_on_an_edge), cmocka_unit_test(fans_about_a_circle), cmocka_unit_test(apexes),
-    cmocka_unit_test(steinmetz), cmocka_unit_test(bent_alike), cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(many_planes), cmocka_unit_test(orders),
+    cmocka_unit_test(steinmetz), cmocka_unit_test(bent_alike), cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(many_planes), cmocka_unit_test(fans), cmocka_unit_test(orders),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
