@@ -3,8 +3,10 @@
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,11 +15,12 @@ namespace oracle {
 using Q = CGAL::Gmpq;
 using V = std::array<Q, 3>;
 
-inline Q pow2(int e) {
-  Q r(1), two(2);
-  for (int i = 0; i < (e < 0 ? -e : e); i++) r *= two;
-  return e < 0 ? Q(1) / r : r;
+inline CGAL::Gmpz shifted_one(int by) {
+  CGAL::Gmpz z(1);
+  mpz_mul_2exp(z.mpz(), z.mpz(), (unsigned long)by);
+  return z;
 }
+inline Q pow2(int e) { return e < 0 ? Q(CGAL::Gmpz(1), shifted_one(-e)) : Q(shifted_one(e)); }
 inline Q pow10(int e) {
   Q r(1), ten(10);
   for (int i = 0; i < (e < 0 ? -e : e); i++) r *= ten;
@@ -98,14 +101,19 @@ inline Quadric transformed(const Quadric &q, const Map &map) { // M^-T Q M^-1
   std::array<std::array<Q, 4>, 4> w;
   for (int i = 0; i < 3; i++) w[i] = {inv.m[i][0], inv.m[i][1], inv.m[i][2], inv.t[i]};
   w[3] = {Q(0), Q(0), Q(0), Q(1)};
+  std::array<std::array<Q, 4>, 4> qw; // Q W, then W^T of that
   Quadric r;
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) {
-      Q s(0);
-      for (int k = 0; k < 4; k++)
-        for (int l = 0; l < 4; l++) s += w[k][i] * q.a[k][l] * w[l][j];
-      r.a[i][j] = s;
-    }
+  auto product = [](auto left, auto right, auto &to) {
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) {
+        Q s(0);
+        for (int k = 0; k < 4; k++)
+          if (left(i, k) != 0 && right(k, j) != 0) s += left(i, k) * right(k, j);
+        to[i][j] = s;
+      }
+  };
+  product([&](int i, int k) { return q.a[i][k]; }, [&](int k, int j) { return w[k][j]; }, qw);
+  product([&](int i, int k) { return w[k][i]; }, [&](int k, int j) { return qw[k][j]; }, r.a);
   return r;
 }
 inline bool proportional(const Quadric &p, const Quadric &q) {
@@ -122,35 +130,41 @@ inline bool proportional(const Quadric &p, const Quadric &q) {
   return false;
 }
 
+// How often 2 and 5 divide a denominator; false when another prime does.
+inline bool places_of(const CGAL::Gmpz &den, unsigned long &twos, unsigned long &fives) {
+  mpz_t z, five;
+  mpz_init_set(z, den.mpz()), mpz_init_set_ui(five, 5);
+  twos = mpz_scan1(z, 0);
+  mpz_tdiv_q_2exp(z, z, twos);
+  fives = mpz_remove(z, z, five);
+  bool clean = mpz_cmp_ui(z, 1) == 0;
+  mpz_clear(z), mpz_clear(five);
+  return clean;
+}
+inline bool is_decimal(const Q &q) {
+  unsigned long twos, fives;
+  return places_of(q.denominator(), twos, fives);
+}
 // A finite decimal as text; throws when the number is none.
 inline std::string decimal(const Q &q) {
-  CGAL::Gmpz num = q.numerator(), den = q.denominator();
-  int places = 0;
-  while (den != 1) {
-    CGAL::Gmpz g = CGAL::gcd(den, CGAL::Gmpz(10));
-    if (g == 1) throw std::logic_error("not a decimal");
-    num *= CGAL::Gmpz(10), places++;
-    CGAL::Gmpz c = CGAL::gcd(num, den);
-    num = CGAL::integral_division(num, c), den = CGAL::integral_division(den, c);
-  }
-  bool negative = num < 0;
-  std::ostringstream os;
-  os << (negative ? -num : num);
-  std::string s = os.str();
+  unsigned long twos, fives;
+  if (!places_of(q.denominator(), twos, fives)) throw std::logic_error("not a decimal");
+  size_t places = std::max(twos, fives);
+  mpz_t n;
+  mpz_init(n);
+  mpz_ui_pow_ui(n, fives < twos ? 5 : 2, fives < twos ? twos - fives : fives - twos);
+  mpz_mul(n, n, q.numerator().mpz());
+  bool negative = mpz_sgn(n) < 0;
+  mpz_abs(n, n);
+  std::string s(mpz_sizeinbase(n, 10) + 2, 0);
+  mpz_get_str(&s[0], 10, n);
+  s.resize(strlen(s.c_str()));
+  mpz_clear(n);
   if (places) {
-    while ((int)s.size() <= places) s = "0" + s;
+    if (s.size() <= places) s.insert(0, places + 1 - s.size(), '0');
     s.insert(s.size() - places, ".");
   }
   return (negative ? "-" : "") + s;
-}
-inline bool is_decimal(const Q &q) {
-  CGAL::Gmpz den = q.denominator();
-  while (den != 1) {
-    CGAL::Gmpz g = CGAL::gcd(den, CGAL::Gmpz(10));
-    if (g == 1) return false;
-    den = CGAL::integral_division(den, g);
-  }
-  return true;
 }
 inline std::string text(const V &v) { return "[" + decimal(v[0]) + "," + decimal(v[1]) + "," + decimal(v[2]) + "]"; }
 

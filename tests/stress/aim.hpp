@@ -148,7 +148,8 @@ inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::v
       case Mixed: {
         Line l;
         Ray other;
-        if (aim(r, spots, l) && to_ray(l, other)) x = other;
+        if (r.chance(30) && aim(r, spots, l) && to_ray(l, other)) x = other;
+        else if (!out.empty()) nudge(r, x = out.back());
         break;
       }
       default: break;

@@ -1,10 +1,17 @@
 // Random models on purpose full of faces shared, tangencies, rims that meet, near misses by 2^-20 to 2^-120, extreme sizes and places.
 #pragma once
+#include "census.hpp"
 #include "spec.hpp"
 
 namespace stress {
 // How a model's numbers are drawn. dyadic: integers times powers of two, so that hard rays are exactly doubles.
-struct Style { bool dyadic = true; };
+struct Style {
+  bool dyadic = true;
+  Census *census = nullptr;
+  void note(const char *group, const std::string &kind) const {
+    if (census) census->count(group, kind);
+  }
+};
 
 inline Spec leaf_spec(const Shape &s) {
   Spec r;
@@ -37,9 +44,11 @@ inline Q a_size(Random &r, const Style &s) {
 inline Q a_place(Random &r, const Style &s) { return s.dyadic ? Q(r.range(-6, 6)) : r.chance(60) ? Q(r.range(-3, 3)) : r.tenth(-60, 60); }
 // What is between two faces that nearly meet; mostly nothing. Gaps near the spacing of doubles are where filters are tried, and where
 // parameters lie in the middle between two doubles.
-inline Q a_gap(Random &r) {
-  if (r.chance(55)) return Q(0);
-  Q g = r.chance(60) ? pow2(-r.range(44, 58)) : pow2(-r.range(20, 120));
+inline Q a_gap(Random &r, const Style &st) {
+  if (r.chance(55)) return st.note("gap", "none"), Q(0);
+  int e = r.chance(60) ? r.range(44, 58) : r.range(20, 120);
+  st.note("gap", e < 44 ? "2^-20 to 2^-43" : e < 59 ? "2^-44 to 2^-58" : e < 90 ? "2^-59 to 2^-89" : "2^-90 to 2^-120");
+  Q g = pow2(-e);
   return (r.chance(50) ? Q(1) : Q(-1)) * (r.chance(80) ? g : Q(3) * g);
 }
 inline Node::Op an_op(Random &r) { return (Node::Op)r.below(3); }
@@ -148,12 +157,15 @@ inline Spec simple(Shape::Kind k, std::vector<Q> p, bool center = false) {
 // Coincidences made on purpose, of about n leaves.
 inline Spec a_motif(Random &r, const Style &st, int n) {
   Q a = a_size(r, st), b = a_size(r, st), c = a_size(r, st);
-  switch (r.below(10)) {
+  static const char *const motifs[] = {"flush cuts", "stacked", "inscribed", "meeting in circles", "minus moved copies", "turned about an axis", "lattice", "thin shells", "touching balls", "tangent along lines"};
+  int motif = r.below(10);
+  st.note("motif", motifs[motif]);
+  switch (motif) {
   case 0: { // flush cuts
     std::vector<Spec> k{simple(Shape::Cube, {a + b, b + c, c})};
     for (int i = 1; i < std::max(2, n); i++) {
       Spec cut = r.chance(50) ? simple(Shape::Cylinder, {c, a / 2}) : simple(Shape::Cube, {a, b, c});
-      k.push_back(moved({a_place(r, st), a_place(r, st), a_gap(r)}, cut));
+      k.push_back(moved({a_place(r, st), a_place(r, st), a_gap(r, st)}, cut));
     }
     return gate(r.chance(70) ? Node::Difference : an_op(r), k);
   }
@@ -164,7 +176,7 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
       Q h = a_size(r, st), rad = r.chance(50) ? a : a_size(r, st);
       Spec s = r.chance(60) ? simple(Shape::Cylinder, {h, rad}) : r.chance(50) ? simple(Shape::Frustum, {h, rad, rad + 1}) : simple(Shape::Cube, {rad, rad, h});
       k.push_back(moved({0, 0, z}, s));
-      z = z + h + a_gap(r);
+      z = z + h + a_gap(r, st);
     }
     return gate(an_op(r), k);
   }
@@ -174,14 +186,14 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     Spec box = simple(Shape::Cube, {two * a, two * a, two * a}, true), ball = simple(Shape::Sphere, {a}), rod = simple(Shape::Cylinder, {two * a, a}, true);
     Spec all[3] = {box, ball, rod};
     k.push_back(all[r.below(3)]);
-    for (int i = 1; i < std::min(std::max(2, n), 6); i++) k.push_back(moved(along_axis(r.below(3), a_gap(r)), all[r.below(3)]));
+    for (int i = 1; i < std::min(std::max(2, n), 6); i++) k.push_back(moved(along_axis(r.below(3), a_gap(r, st)), all[r.below(3)]));
     return gate(an_op(r), k);
   }
   case 3: { // coaxial solids that meet in circles
     std::vector<Spec> k{simple(Shape::Frustum, {Q(3), Q(4), Q(1)})};
     k.push_back(simple(Shape::Sphere, {Q(5)}));
     k.back() = moved({0, 0, -3}, k.back()); // through the rim of radius 4 at z = 0
-    k.push_back(moved({0, 0, 3 + a_gap(r)}, simple(Shape::Frustum, {a, Q(1), b + 1})));
+    k.push_back(moved({0, 0, 3 + a_gap(r, st)}, simple(Shape::Frustum, {a, Q(1), b + 1})));
     k.push_back(moved({0, 0, -3}, simple(Shape::Cylinder, {Q(3), Q(4)})));
     k.push_back(moved({0, 0, -5}, simple(Shape::Paraboloid, {Q(5), Q(4)})));
     for (int i = (int)k.size(); i > 2 && i > n; i--) k.erase(k.begin() + r.below((int)k.size()));
@@ -195,11 +207,11 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     return s;
   }
   case 4: { // minus its own copy, moved along an axis by an exact step
-    Spec s = r.chance(30) ? moved(along_axis(r.below(3), a_gap(r)), a_leaf(r, st)) : a_leaf(r, st);
+    Spec s = r.chance(30) ? moved(along_axis(r.below(3), a_gap(r, st)), a_leaf(r, st)) : a_leaf(r, st);
     std::vector<Spec> k{s};
     Q step = r.chance(20) ? Q(0) : a_size(r, st);
     int axis = r.below(3);
-    for (int i = 1; i < std::min(std::max(2, n), 20); i++) k.push_back(moved(along_axis(axis, Q(i) * step + a_gap(r)), s));
+    for (int i = 1; i < std::min(std::max(2, n), 20); i++) k.push_back(moved(along_axis(axis, Q(i) * step + a_gap(r, st)), s));
     return gate(r.chance(60) ? Node::Difference : an_op(r), k);
   }
   case 5: { // turned about a common axis
@@ -215,12 +227,14 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     Spec s = r.chance(40) ? simple(Shape::Cube, {a, a, a}) : r.chance(50) ? simple(Shape::Sphere, {r.chance(50) ? a / 2 : a}) : simple(Shape::Cylinder, {a, a / 2});
     int side = std::max(2, (int)std::sqrt((double)n));
     for (int i = 0; i < side; i++)
-      for (int j = 0; j < std::max(1, n / side); j++) k.push_back(moved({Q(i) * a, Q(j) * a, r.chance(90) ? Q(0) : a_gap(r)}, s));
+      for (int j = 0; j < std::max(1, n / side); j++) k.push_back(moved({Q(i) * a, Q(j) * a, r.chance(90) ? Q(0) : a_gap(r, st)}, s));
     Spec all = gate(Node::Union, k);
     return r.chance(50) ? all : gate(Node::Difference, {moved({-a, -a, 0}, simple(Shape::Cube, {Q(side + 2) * a, Q(side + 2) * a, a})), all});
   }
   case 7: { // thin shells
-    Q g = pow2(-r.range(20, 120));
+    int thin = r.range(20, 120);
+    st.note("shell", thin < 44 ? "2^-20 to 2^-43" : thin < 59 ? "2^-44 to 2^-58" : "2^-59 to 2^-120");
+    Q g = pow2(-thin);
     Shape::Kind kind = r.chance(50) ? Shape::Sphere : r.chance(50) ? Shape::Cylinder : Shape::Cube;
     auto make = [&](const Q &w) { return kind == Shape::Sphere ? simple(kind, {a + w}) : kind == Shape::Cylinder ? simple(kind, {b + 2 * w, a + w}, true) : simple(kind, {a + w, b + w, c + w}, true); };
     std::vector<Spec> k{make(g), make(0)};
@@ -231,14 +245,14 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     V u = on_sphere(r);
     bool inner = r.chance(30);
     Q far = inner ? a - b : a + b;
-    std::vector<Spec> k{simple(Shape::Sphere, {a}), moved((far + a_gap(r)) * u, simple(Shape::Sphere, {b}))};
+    std::vector<Spec> k{simple(Shape::Sphere, {a}), moved((far + a_gap(r, st)) * u, simple(Shape::Sphere, {b}))};
     if (n > 2) k.push_back(moved(V{a + c, 0, -c}, simple(Shape::Cylinder, {2 * c, c})));
     if (n > 3) k.push_back(moved(V{-a - b, 0, 0}, simple(Shape::Sphere, {b})));
     return gate(an_op(r), k);
   }
   default: { // a box and a round solid with a common generator or circle: all tangent along lines
     std::vector<Spec> k{moved({-a, -a, 0}, simple(Shape::Cube, {2 * a, 2 * a, b})), simple(Shape::Cylinder, {b, a})};
-    if (n > 2) k.push_back(moved({2 * a + a_gap(r), 0, 0}, simple(Shape::Cylinder, {b, a})));
+    if (n > 2) k.push_back(moved({2 * a + a_gap(r, st), 0, 0}, simple(Shape::Cylinder, {b, a})));
     if (n > 3) k.push_back(moved({0, 0, b}, simple(Shape::Sphere, {a})));
     return gate(an_op(r), k);
   }
@@ -258,7 +272,7 @@ inline Spec a_solid(Random &r, const Style &st, int n, int depth) {
     s = gate(an_op(r), r.chance(70) ? std::vector<Spec>{s, a_leaf(r, st)} : std::vector<Spec>{a_leaf(r, st), s});
   } else if (r.chance(15)) { // the same again, moved or turned or not
     Spec k = a_solid(r, st, n / 2, depth - 1), again = k;
-    if (r.chance(80)) again = r.chance(60) ? moved(along_axis(r.below(3), a_size(r, st) + a_gap(r)), k) : around(a_turn(r), k);
+    if (r.chance(80)) again = r.chance(60) ? moved(along_axis(r.below(3), a_size(r, st) + a_gap(r, st)), k) : around(a_turn(r), k);
     s = gate(an_op(r), r.chance(50) ? std::vector<Spec>{k, again} : std::vector<Spec>{again, k});
   } else {
     std::vector<Spec> k;
@@ -270,30 +284,68 @@ inline Spec a_solid(Random &r, const Style &st, int n, int depth) {
   return s;
 }
 
-// What the whole stands in: sizes 1e-9 to 1e9, places to 1e12, aspect to 1e9.
-inline Spec in_frame(Random &r, const Style &st, Spec s) {
+// What the whole stands in: sizes 1e-9 to 1e9, places to 1e12, aspect to 1e9. frame: its name.
+inline Spec in_frame(Random &r, const Style &st, Spec s, std::string &frame) {
   auto scale = [&](const V &v) {
     Step f;
     f.kind = Step::Scale, f.v = v;
     s = around(f, s);
   };
   auto power = [&](int ten) { return st.dyadic ? pow2(ten * 10 / 3) : pow10(ten); };
+  auto decades = [](int ten) { return ten < -6 ? "1e-9 to 1e-7" : ten < -3 ? "1e-6 to 1e-4" : ten < 0 ? "1e-3 to 1e-1" : ten < 4 ? "1 to 1e3" : ten < 7 ? "1e4 to 1e6" : ten < 10 ? "1e7 to 1e9" : "1e10 to 1e12"; };
+  int ten;
   switch (r.below(12)) {
-  case 0: { Q f = power(r.range(-9, 9)); scale({f, f, f}); break; }
-  case 1: { V v{1, 1, 1}; v[r.below(3)] = power(-r.range(1, 9)); scale(v); break; }
-  case 2: { V v{1, 1, 1}; v[r.below(3)] = power(r.range(1, 9)); scale(v); break; }
-  case 3: { V v{Q(r.range(-1, 1)), Q(r.range(-1, 1)), Q(r.range(-1, 1))}; s = moved(power(r.range(2, 12)) * v, s); break; }
-  case 4: { Q f = power(r.range(-9, 3)); scale({f, f, f}); s = moved(along_axis(r.below(3), power(r.range(0, 9))), s); break; }
-  case 5: s = around(a_turn(r), s); break;
-  case 6: s = around(a_step(r, st), around(a_turn(r), s)); break;
-  default: break;
+  case 0: { ten = r.range(-9, 9); Q f = power(ten); scale({f, f, f}); st.note("size", decades(ten)), frame = "scaled"; break; }
+  case 1: { ten = r.range(1, 9); V v{1, 1, 1}; v[r.below(3)] = power(-ten); scale(v); st.note("aspect", decades(ten)), frame = "flat"; break; }
+  case 2: { ten = r.range(1, 9); V v{1, 1, 1}; v[r.below(3)] = power(ten); scale(v); st.note("aspect", decades(ten)), frame = "long"; break; }
+  case 3: { V v{Q(r.range(-1, 1)), Q(r.range(-1, 1)), Q(r.range(-1, 1))}; ten = r.range(2, 12); s = moved(power(ten) * v, s); st.note("distance", decades(ten)), frame = "far"; break; }
+  case 4: {
+    ten = r.range(-9, 3);
+    Q f = power(ten);
+    scale({f, f, f});
+    st.note("size", decades(ten)), ten = r.range(0, 9);
+    s = moved(along_axis(r.below(3), power(ten)), s), st.note("distance", decades(ten)), frame = "scaled and far";
+    break;
+  }
+  case 5: s = around(a_turn(r), s), frame = "turned"; break;
+  case 6: s = around(a_step(r, st), around(a_turn(r), s)), frame = "turned and mapped"; break;
+  default: frame = "none"; break;
+  }
+  st.note("frame", frame);
+  return s;
+}
+inline void note_shapes(const Style &st, const Spec &s) {
+  static const char *const names[] = {"sphere", "cube", "cylinder", "frustum or cone", "ellipsoid", "paraboloid", "one sheet", "two sheets", "saddle", "halfspace", "wedge", "quadric", "elliptic cylinder", "prism", "polyhedron"};
+  static const char *const steps[] = {"translate", "scale", "quarter turns", "matrix"};
+  static const char *const ops[] = {"union", "difference", "intersection"};
+  for (auto &k : s.steps) st.note("map", steps[k.kind]);
+  if (s.op == Node::IsLeaf) st.note("shape", names[s.shape.kind]);
+  else st.note("tree", ops[s.op]);
+  for (auto &k : s.kids) note_shapes(st, k);
+}
+// As deep as depth: each gate holds the one below and a leaf.
+inline Spec a_chain(Random &r, const Style &st, int depth) {
+  Spec s = a_leaf(r, st);
+  for (int i = 1; i < depth; i++) {
+    std::vector<Spec> k{s, r.chance(30) ? moved(along_axis(r.below(3), a_gap(r, st)), a_leaf(r, st)) : a_leaf(r, st)};
+    if (r.chance(30)) std::swap(k[0], k[1]);
+    if (r.chance(20)) k.push_back(a_leaf(r, st));
+    s = gate(an_op(r), k);
+    if (r.chance(25)) s = around(a_step(r, st), s);
   }
   return s;
 }
-inline Spec a_model(Random &r, const Style &st, int most) {
+inline Spec a_model(Random &r, const Style &st, int most, std::string &frame) {
   int pick = r.below(100);
   int n = pick < 55 ? r.range(1, 5) : pick < 80 ? r.range(6, 16) : pick < 94 ? r.range(17, 50) : r.range(51, 200);
-  Spec s = a_solid(r, st, std::min(n, most), r.range(2, 12));
-  return in_frame(r, st, s);
+  Spec s = r.chance(8) && most > 8 ? a_chain(r, st, r.range(6, std::min(12, most / 2 + 1))) : a_solid(r, st, std::min(n, most), r.range(2, 12));
+  s = in_frame(r, st, s, frame);
+  if (st.census) {
+    note_shapes(st, s);
+    st.note("numbers", st.dyadic ? "dyadic" : "decimal");
+    st.census->count_size("leaves", (long)leaves_of(s), {1, 5, 16, 50, 200});
+    st.census->count_size("depth", depth_of(s) + 1, {1, 2, 4, 6, 8, 12});
+  }
+  return s;
 }
 } // namespace stress

@@ -1,8 +1,9 @@
-// What quoin says of a ray or a point, asked in every way there is, against what it must say: the quick judge where it is certain, else
-// CGAL's exact numbers.
+// What quoin says of a ray or a point, asked in every way there is, against what it must say: the quick judge, or CGAL's exact numbers.
 #pragma once
 #include "aim.hpp"
 #include "quick.hpp"
+#include "ring.hpp"
+#include "ulps.hpp"
 #include "../oracle/judge.hpp"
 
 namespace stress {
@@ -182,7 +183,8 @@ struct Bench { // one model and its judges
     Random r(seed);
     return node_of(s, Map(), r, b);
   }
-  Bench(const Spec &s, uint64_t seed) : spec(s), text(text_of(s)), solid(build(s, seed, balls)), surfaces(solid), quick(solid, balls), model(text), sse2(model, 0), avx2(model, 1), avx512(model, 2) {
+  Bench(const Spec &s, uint64_t seed)
+      : spec(s), text(text_of(s)), solid(build(s, seed, balls)), surfaces(solid), quick(solid, surfaces, balls), model(text), sse2(model, 0), avx2(model, 1), avx512(model, 2) {
     std::vector<const Leaf *> leaves;
     collect(solid, leaves);
     for (auto *l : leaves)
@@ -190,47 +192,68 @@ struct Bench { // one model and its judges
   }
   Bench(const Bench &) = delete;
 
+  // Stretches inside, and on the boundary, over ends of type E.
+  template <class E> struct Truth {
+    std::vector<std::pair<const E *, const E *>> in, on; // null: infinite
+    void take(const std::vector<E> &cuts, const std::vector<Answer::What> &what) {
+      in.clear(), on.clear();
+      for (size_t i = 0; i < what.size(); i++)
+        if (what[i] != Answer::Outside) (what[i] == Answer::Inside ? in : on).push_back({i ? &cuts[i - 1] : nullptr, i < cuts.size() ? &cuts[i] : nullptr});
+    }
+    template <class Compare, class Nearest> Verdict judge(const Ray &ray, const Reply &reply, int way, size_t &rounded, Compare compare, Nearest nearest) const {
+      if (reply.answer.status != QUOIN_OK) return Wrong;
+      if (way == Blocked) return check_blocked<E>(in, ray, reply.hit, compare);
+      if (is_hit(way)) return check_hit<E>(in, ray, reply.hit, compare, nearest, rounded);
+      Verdict v = check<E>(in, ray, reply.answer.inside, compare, nearest, rounded);
+      if (v != Right || way == Many) return v;
+      return check<E>(on, ray, reply.answer.boundary, compare, nearest, rounded);
+    }
+  };
+  // A double beyond the largest, or its neighbour, against a root.
+  static int nearest_far(double t, const Root &n) {
+    if (std::isinf(t)) { // beyond the largest double, with the halfway point going to even
+      Root most((Q(0x1.fffffffffffffp+1023) + pow2(970)) * Q(t > 0 ? 1 : -1));
+      return (int)(t > 0 ? n >= most : n <= most);
+    }
+    return 2;
+  }
+  static bool far_away(double t) { return std::isinf(t) || std::fabs(t) == 0x1.fffffffffffffp+1023; }
+
   Quick::Found found;
   bool known = false;
-  std::vector<std::pair<const Num *, const Num *>> quick_inside;
+  Truth<Cut> quick_truth;
   // Prepares the quick judge for a ray; then judge_quick may be asked for several replies.
   void aim_quick(const Ray &ray) {
     known = quick.shoot(ray.o, ray.d, found);
-    quick_inside.clear();
-    for (size_t i = 0; known && i < found.in.size(); i++)
-      if (found.in[i]) quick_inside.push_back({i ? &found.cuts[i - 1].t : nullptr, i < found.cuts.size() ? &found.cuts[i].t : nullptr});
+    if (known) quick_truth.take(found.cuts, found.what);
   }
-  Verdict judge_quick(const Ray &ray, const Reply &reply, int way, size_t &rounded) const {
+  Verdict judge_quick(const Ray &ray, const Reply &reply, int way, size_t &rounded, Ulps *const *ulps = nullptr) { // ulps: two to add to
     if (!known) return Unknown;
-    if (reply.answer.status != QUOIN_OK) return Wrong;
-    auto compare = [](const Num &n, double t) {
-      if (std::isinf(t)) return t > 0 ? -1 : 1;
-      Wide gap = n.v - (Wide)t;
-      return gap > n.e ? 1 : -gap > n.e ? -1 : none(Num{gap, n.e}) ? 0 : 2;
+    auto compare = [this](const Cut &n, double t) { return quick.compare(n, t); };
+    auto nearest_ = [this, ulps](double t, const Cut &n) {
+      if (far_away(t)) return nearest_far(t, quick.exact_root(n));
+      int v = quick.nearest(t, n);
+      if (ulps && v == 1 && ulps[0]->add(t, quick.wide(n))) ulps[1]->add(t, quick.wide(n));
+      return v;
     };
-    auto nearest = [](double t, const Num &n) { return nearest_quick(t, n); };
-    if (way == Blocked) return check_blocked<Num>(quick_inside, ray, reply.hit, compare);
-    if (is_hit(way)) return check_hit<Num>(quick_inside, ray, reply.hit, compare, nearest, rounded);
-    if (way != Many && !reply.answer.boundary.empty()) return Wrong;
-    return check<Num>(quick_inside, ray, reply.answer.inside, compare, nearest, rounded);
+    return quick_truth.judge(ray, reply, way, rounded, compare, nearest_);
   }
   Answer exact_answer;
-  void aim_exact(const Ray &ray) { exact_answer = intersect(solid, surfaces, origin(ray), direction(ray)); }
+  Truth<Root> exact_truth;
+  void aim_exact(const Ray &ray) {
+    exact_answer = intersect(solid, surfaces, origin(ray), direction(ray));
+    if (exact_answer.skipped) exact_answer = beside(solid, surfaces, origin(ray), direction(ray));
+    exact_truth.take(exact_answer.cuts, exact_answer.what);
+  }
   mutable unsigned long long middles = 0; // ends that lie in the very middle between two doubles
   Verdict judge_exact(const Ray &ray, const Reply &reply, int way, size_t &rounded) const {
-    const Answer &a = exact_answer;
-    if (a.skipped) return Unjudged;
-    if (reply.answer.status != QUOIN_OK) return Wrong;
+    if (exact_answer.skipped) return Unjudged;
     auto compare = [](const Root &n, double t) {
       if (std::isinf(t)) return t > 0 ? -1 : 1;
       return (int)CGAL::compare(n, Root(Q(t)));
     };
     auto nearest_ = [this](double t, const Root &n) {
-      if (std::isinf(t)) { // beyond the largest double, with the halfway point going to even
-        Root most((Q(0x1.fffffffffffffp+1023) + pow2(970)) * Q(t > 0 ? 1 : -1));
-        return (int)(t > 0 ? n >= most : n <= most);
-      }
-      if (std::fabs(t) == 0x1.fffffffffffffp+1023) return 2;
+      if (far_away(t)) return nearest_far(t, n);
       if (!n.is_extended() && n.a0() != Q(t)) {
         Q gap = n.a0() - Q(t);
         double beside = std::nextafter(t, gap > 0 ? INFINITY : -INFINITY);
@@ -238,26 +261,25 @@ struct Bench { // one model and its judges
       }
       return (int)nearest(t, n);
     };
-    std::vector<std::pair<const Root *, const Root *>> in, on;
-    for (size_t i = 0; i < a.what.size(); i++)
-      if (a.what[i] != Answer::Outside)
-        (a.what[i] == Answer::Inside ? in : on).push_back({i ? &a.cuts[i - 1] : nullptr, i < a.cuts.size() ? &a.cuts[i] : nullptr});
-    if (way == Blocked) return check_blocked<Root>(in, ray, reply.hit, compare);
-    if (is_hit(way)) return check_hit<Root>(in, ray, reply.hit, compare, nearest_, rounded);
-    Verdict v = check<Root>(in, ray, reply.answer.inside, compare, nearest_, rounded);
-    if (v != Right || way == Many) return v;
-    return check<Root>(on, ray, reply.answer.boundary, compare, nearest_, rounded);
+    return exact_truth.judge(ray, reply, way, rounded, compare, nearest_);
   }
 
   // The side a point must have: the tree on every combination of sides of the surfaces through it, when these are at most three with
   // independent gradients; -1 otherwise.
   int side(const V &p) const {
-    const Line4 at = whole(p, V{0, 0, 0});
+    std::optional<Line4> at;
     std::vector<int> sign, group;
     std::vector<const Quadric *> through;
+    Num x[3];
+    for (int i = 0; i < 3; i++) x[i] = from_rational(p[(size_t)i]);
     for (size_t s = 0; s < surfaces.forms.size(); s++) {
-      sign.push_back(CGAL::sign(along(surfaces.forms[s], at).c)), group.push_back(-1);
-      if (sign[s] == 0) group[s] = (int)through.size(), sign[s] = 1, through.push_back(surfaces.quadrics[s]);
+      int known = Quick::sign_at(quick.surfaces[s], quick.surfaces[s].wide, x);
+      if (known == 2) {
+        if (!at) at = whole(p, V{0, 0, 0});
+        known = CGAL::sign(along(surfaces.forms[s], *at).c);
+      }
+      sign.push_back(known), group.push_back(-1);
+      if (known == 0) group[s] = (int)through.size(), sign[s] = 1, through.push_back(surfaces.quadrics[s]);
     }
     std::vector<Cursor> cursors(surfaces.of.size());
     for (size_t h = 0; h < cursors.size(); h++) {

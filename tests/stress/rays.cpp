@@ -8,7 +8,7 @@ using namespace stress;
 
 struct Totals {
   unsigned long long models = 0, leaves = 0, rays = 0, quick = 0, exact = 0, unjudged = 0, ends = 0, points = 0, wrong = 0, refused = 0, middles = 0;
-  unsigned long long by_aim[Aims] = {0}, by_bundle[Bundles] = {0}, by_way[Ways] = {0}, found[4] = {0}, sides[3] = {0};
+  Census census;
   double asking = 0, quickly = 0, exactly = 0;
 };
 struct Options {
@@ -19,6 +19,8 @@ struct Options {
   std::string finds = ".";
   bool census = false, once = false;
 };
+
+static const char *const SIDES[] = {"outside", "boundary", "inside"};
 
 static void found(Totals &t, const Options &o, Case c, uint64_t model_seed, const char *what) {
   t.wrong++;
@@ -57,7 +59,7 @@ static void ask_points(Bench &b, uint64_t seed, Random &r, const Options &o, Tot
     const char *c[3];
     for (int i = 0; i < 3; i++) d[i] = decimal(p[(size_t)i]), c[i] = d[i].c_str();
     quoin_status s = quoin_point_side_text(b.model.scene, b.model.work, c, &said);
-    t.points++, t.sides[should]++;
+    t.points++, t.census.count("point", SIDES[should]);
     if (s != QUOIN_OK || said != should) {
       t.wrong++;
       wrong_point(b, seed, o, d, said, should, s, "as decimals");
@@ -88,7 +90,7 @@ static void ask_points(Bench &b, uint64_t seed, Random &r, const Options &o, Tot
       V p{Q(x[3 * i]), Q(x[3 * i + 1]), Q(x[3 * i + 2])};
       if (should < 0 || (int)said[i] != should || r.below(1000) < o.share) should = b.side(p);
       if (should < 0) continue;
-      t.points++, t.sides[should]++;
+      t.points++, t.census.count("point", SIDES[should]);
       if (s != QUOIN_OK || (int)said[i] != should) {
         t.wrong++;
         std::string d[3] = {decimal(p[0]), decimal(p[1]), decimal(p[2])};
@@ -103,7 +105,9 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
   Random r(seed);
   Style st;
   st.dyadic = r.chance(60);
-  Spec spec = a_model(r, st, o.leaves);
+  st.census = &t.census;
+  std::string frame;
+  Spec spec = a_model(r, st, o.leaves, frame);
   uint64_t spots_seed = r.next();
   std::unique_ptr<Bench> b;
   try {
@@ -115,7 +119,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
   }
   t.models++, t.leaves += leaves_of(spec);
   std::vector<Ray> rays;
-  int bundles = r.range(4, 12);
+  int bundles = r.range(16, 48); // a model costs as much as a thousand rays
   for (int k = 0; k < bundles; k++) {
     Line line;
     Ray first;
@@ -130,13 +134,17 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     double t0 = now();
     auto replies = ask_rays(b->model, b->work(isa), rays, way);
     t.asking += now() - t0;
-    t.by_bundle[kind] += n, t.by_way[way] += n, t.by_aim[line.kind] += n;
+    t.census.count("bundle", BUNDLES[kind], n), t.census.count("way", WAYS[way], n), t.census.count("aim", AIMS[line.kind], n), t.census.count("isa", ISAS[isa], n);
+    Ulps *const ulps[2] = {&t.census.ends[std::string("aim ") + AIMS[line.kind]], &t.census.ends["frame " + frame]};
+    bool aimed = false; // the exact judge, at the present ray
     for (size_t i = 0; i < n; i++) {
       size_t ends = 0;
       t.rays++;
       double t1 = now();
-      b->aim_quick(rays[i]);
-      Verdict v = b->judge_quick(rays[i], replies[i], way, ends);
+      bool again = i && memcmp(rays[i].o, rays[i - 1].o, sizeof rays[i].o + sizeof rays[i].d) == 0;
+      if (!again) b->aim_quick(rays[i]), aimed = false;
+      Verdict v = b->judge_quick(rays[i], replies[i], way, ends, ulps);
+      if (!again && b->known) t.census.count("line", b->quick.zeros.empty() ? "in no surface" : b->quick.zeros.size() == 1 ? "in one surface" : "in two surfaces");
       t.quickly += now() - t1;
       if (v == Right) {
         t.quick++, t.ends += ends;
@@ -144,7 +152,8 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
       }
       ends = 0;
       double t2 = now();
-      b->aim_exact(rays[i]);
+      if (!again || !aimed) b->aim_exact(rays[i]);
+      aimed = true;
       Verdict e = b->judge_exact(rays[i], replies[i], way, ends);
       t.exactly += now() - t2;
       if (e == Unjudged || e == Unknown) {
@@ -156,7 +165,10 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
         continue;
       }
       if ((v == Wrong) != (e == Wrong) && v != Unknown) fprintf(stderr, "the judges disagree: --again %llu\n", (unsigned long long)seed), t.wrong++;
-      if (v != Right) t.exact++, t.ends += ends;
+      if (v != Right) {
+        t.exact++, t.ends += ends;
+        if (!again && b->exact_answer.zero_surfaces) t.census.count("line", b->exact_answer.zero_surfaces > 2 ? "in three surfaces or more" : "in two that touch");
+      }
       if (e == Wrong) {
         Case c{spec, rays, way, isa, spots_seed};
         found(t, o, c, seed, "wrong ray");
@@ -165,6 +177,8 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     }
   }
   t.middles += b->middles;
+  t.census.count("solved", "in doubles", b->quick.used[0]), t.census.count("solved", "in quadruple precision", b->quick.used[1]);
+  t.census.count("solved", "with whole numbers", b->quick.used[2]), t.census.count("solved", "pairs of roots compared exactly", b->quick.compared);
   ask_points(*b, seed, r, o, t);
 }
 
@@ -200,15 +214,13 @@ int main(int argc, char **argv) {
     if (t.wrong >= 10) break;
   }
   double all = now() - begin;
-  printf("rays seed=%llu seconds=%.1f models=%llu leaves=%llu rays=%llu quick=%llu exact=%llu unjudged=%llu ends=%llu points=%llu refused=%llu wrong=%llu\n", (unsigned long long)o.seed, all,
+  printf("rays seed=%llu seconds=%.1f models=%llu leaves=%llu rays=%llu quick=%llu exact=%llu unjudged=%llu ends=%llu points=%llu refused=%llu wrong=%llu", (unsigned long long)o.seed, all,
          t.models, t.leaves, t.rays, t.quick, t.exact, t.unjudged, t.ends, t.points, t.refused, t.wrong);
+  t.census.print(stdout);
+  putchar('\n');
   if (o.census) {
     printf("ends in the middle between two doubles: %llu\n", t.middles);
     printf("time: asking %.1f s, quick judge %.1f s, exact judge %.1f s; %.0f models and %.0f rays a second\n", t.asking, t.quickly, t.exactly, t.models / all, t.rays / all);
-    for (int i = 0; i < Aims; i++) printf("%s%s %llu", i ? ", " : "aimed: ", AIMS[i], t.by_aim[i]);
-    for (int i = 0; i < Bundles; i++) printf("%s%s %llu", i ? ", " : "\nbundles: ", BUNDLES[i], t.by_bundle[i]);
-    for (int i = 0; i < Ways; i++) printf("%s%s %llu", i ? ", " : "\nasked by: ", WAYS[i], t.by_way[i]);
-    printf("\npoints: outside %llu, boundary %llu, inside %llu\n", t.sides[0], t.sides[1], t.sides[2]);
   }
   return t.wrong != 0;
 }
