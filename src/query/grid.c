@@ -1,5 +1,6 @@
 /* A grid of rays, tile by tile. */
 #include "query/look.h"
+#include "query/sheaf.h"
 
 #include <math.h>
 #include <string.h>
@@ -141,5 +142,123 @@ quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const q
       }
     }
   }
+  return QUOIN_OK;
+}
+
+/* --- all intervals ----------------------------------------------------------------------------------------------------- */
+
+static quoin_status append(quoin_work *work, size_t n, const quoin_interval *from, quoin_interval **to, size_t *count, size_t *capacity, quoin_run *run) {
+  if (*count + n > UINT32_MAX || !qn_grow(work->mem, to, capacity, *count + n)) {
+    return QUOIN_E_MEMORY;
+  }
+  *run = (quoin_run){(uint32_t)*count, (uint32_t)n};
+  for (size_t i = 0; i < n; i++) { /* from may be null when n is 0 */
+    (*to)[*count + i] = from[i];
+  }
+  *count += n;
+  return QUOIN_OK;
+}
+
+/* A lane that its packet has given up, alone. */
+static quoin_status woven(quoin_work *work, unsigned lane, unsigned want, size_t place) {
+  qn_sheaf *s = work->sheaf;
+  const qn_packet *p = &s->packet;
+  const unsigned x = qn_lane_column(lane), y = qn_lane_row(lane);
+  quoin_ray ray = {{p->o[0][lane], p->o[1][lane], p->o[2][lane]}, {p->d[0][lane], p->d[1][lane], p->d[2][lane]}, p->from[lane], p->to[lane]};
+  for (int k = 0; k < 3; k++) { /* the body may not have filled it in */
+    (p->tile == QN_TILE_ORIGINS ? ray.o : ray.d)[k] = p->across[k][x] + p->up[k][y];
+  }
+  quoin_intervals one;
+  quoin_status status = quoin_ray_intervals(work->scene, work, &ray, want, &one);
+  if (status == QUOIN_OK) {
+    status = append(work, one.count, one.inside, &s->found, &s->found_count, &s->found_capacity, &s->found_of[place]);
+  }
+  if (status == QUOIN_OK && want) {
+    status = append(work, one.boundary_count, one.boundary, &s->boundary, &s->boundary_count, &s->boundary_capacity, &s->boundary_of[place]);
+  }
+  return status;
+}
+
+/* One tile; its first ray is number `first` of the answer, a row has `stride`. */
+static quoin_status tile_intervals(quoin_work *work, unsigned want, size_t first, size_t stride) {
+  qn_sheaf *s = work->sheaf;
+  uint64_t sure;
+  quoin_status status = qn_sheaf_tile(work, &sure);
+  if (status != QUOIN_OK) {
+    return status;
+  }
+  size_t count = 0;
+  for (uint64_t m = sure; m; m &= m - 1) {
+    count += s->spans.row_count[qn_trailing_zeros(m)] / 2;
+  }
+  if (s->found_count + count > UINT32_MAX || !qn_grow(work->mem, &s->found, &s->found_capacity, s->found_count + count)) {
+    return QUOIN_E_MEMORY;
+  }
+  for (uint64_t m = sure; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    const size_t place = first + qn_lane_row(lane) * stride + qn_lane_column(lane);
+    const uint32_t n = s->spans.row_count[lane] / 2;
+    s->found_of[place] = (quoin_run){(uint32_t)s->found_count, n};
+    if (n) {
+      qn_sheaf_write(work, lane, s->found + s->found_count);
+      s->found_count += n;
+    }
+  }
+  for (uint64_t m = want ? sure : 0; m; m &= m - 1) { /* what is certain has nothing in the boundary */
+    const unsigned lane = qn_trailing_zeros(m);
+    s->boundary_of[first + qn_lane_row(lane) * stride + qn_lane_column(lane)] = (quoin_run){(uint32_t)s->boundary_count, 0};
+  }
+  for (uint64_t m = s->packet.live & ~sure; m && status == QUOIN_OK; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    status = woven(work, lane, want, first + qn_lane_row(lane) * stride + qn_lane_column(lane));
+  }
+  return status;
+}
+
+quoin_status quoin_grid_intervals(const quoin_scene *scene, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, unsigned want,
+                                  quoin_grid_answer *out) {
+  if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height || want > QUOIN_WANT_BOUNDARY) {
+    return QUOIN_E_ARGUMENT;
+  }
+  *out = (quoin_grid_answer){0};
+  if (x0 == x1 || y0 == y1) {
+    return QUOIN_OK;
+  }
+  int near_zero;
+  const size_t stride = x1 - x0, rays = stride * (y1 - y0);
+  if (!are_rays(grid, x0, y0, x1, y1, &near_zero)) {
+    return QUOIN_E_ARGUMENT;
+  }
+  qn_packet *packet = rays / stride == y1 - y0 ? qn_sheaf_packet(work) : NULL;
+  qn_sheaf *s = work->sheaf;
+  if (!packet || !qn_grow(work->mem, &s->found_of, &s->run_capacity, rays) || (want && !qn_grow(work->mem, &s->boundary_of, &s->boundary_run_capacity, rays))) {
+    return QUOIN_E_MEMORY;
+  }
+  s->found_count = s->boundary_count = 0;
+  fill_shared(grid, packet);
+  double across[STRIP][3][8];
+  for (size_t strip = x0; strip < x1; strip += 8 * STRIP) {
+    for (size_t i = 0; i < STRIP && strip + 8 * i < x1; i++) {
+      columns_of(grid, strip + 8 * i, x1 - 1, across[i]);
+    }
+    for (size_t y = y0; y < y1; y += 8) {
+      const unsigned rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+      rows_of(grid, y, y1 - 1, packet->up);
+      for (size_t i = 0, x = strip; i < STRIP && x < x1; i++, x += 8) {
+        const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8;
+        memcpy(packet->across, across[i], sizeof packet->across);
+        if (near_zero && has_zero(packet)) {
+          return QUOIN_E_ARGUMENT;
+        }
+        packet->live = columns == 8 && rows == 8 ? ~(uint64_t)0 : lanes_within(columns, rows);
+        quoin_status status = tile_intervals(work, want, (y - y0) * stride + (x - x0), stride);
+        if (status != QUOIN_OK) {
+          return status;
+        }
+        packet->new_origins = !grid->converging, packet->new_directions = grid->converging, packet->kept_ranges = 1;
+      }
+    }
+  }
+  *out = (quoin_grid_answer){rays, s->found_of, s->found_count, s->found, want ? s->boundary_of : NULL, s->boundary_count, s->boundary};
   return QUOIN_OK;
 }

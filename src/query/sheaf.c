@@ -20,18 +20,27 @@ enum { FEW_SLOTS = QN_SHEAF_FEW, RUN = 48, SLOTS_AT_FIRST = 30, MOST_SLOTS = 1 <
 
 static size_t ends_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES * 4 * sizeof *s->ends; }
 static size_t slots_size(const qn_packet_spans *s) { return (size_t)s->capacity * QN_LANES / 2 * sizeof *s->slots; }
+static size_t rows_size(const qn_packet_spans *s) { return (2 * (size_t)s->capacity + 2) * QN_LANES * sizeof *s->row_t; }
 
-static int room_for_slots(quoin_work *work, uint32_t capacity) {
+static void free_slots(quoin_work *work) {
   qn_packet_spans *s = &work->sheaf->spans;
   qn_free_line(work->mem, s->ends, ends_size(s));
   qn_free(work->mem, s->slots, slots_size(s));
+  qn_free_line(work->mem, s->row_t, rows_size(s));
+  qn_free_line(work->mem, s->row_name, rows_size(s));
+  s->ends = s->row_t = s->row_name = NULL, s->slots = NULL, s->capacity = 0;
+}
+
+static int room_for_slots(quoin_work *work, uint32_t capacity) {
+  qn_packet_spans *s = &work->sheaf->spans;
+  free_slots(work);
   s->capacity = capacity;
   s->ends = qn_alloc_line(work->mem, ends_size(s));
   s->slots = qn_alloc(work->mem, slots_size(s));
-  if (!s->ends || !s->slots) {
-    qn_free_line(work->mem, s->ends, ends_size(s));
-    qn_free(work->mem, s->slots, slots_size(s));
-    s->ends = NULL, s->slots = NULL, s->capacity = 0;
+  s->row_t = qn_alloc_line(work->mem, rows_size(s));
+  s->row_name = qn_alloc_line(work->mem, rows_size(s));
+  if (!s->ends || !s->slots || !s->row_t || !s->row_name) {
+    free_slots(work);
     return 0;
   }
   return 1;
@@ -64,13 +73,14 @@ void qn_sheaf_free(quoin_work *work) {
   if (!s) {
     return;
   }
-  qn_free_line(work->mem, s->spans.ends, ends_size(&s->spans));
-  qn_free(work->mem, s->spans.slots, slots_size(&s->spans));
+  free_slots(work);
   qn_free(work->mem, s->count, work->scene->program.gate_count * sizeof *s->count);
   qn_free(work->mem, s->events, s->event_capacity * sizeof *s->events);
   qn_free(work->mem, s->sorting, s->sorting_capacity * sizeof *s->sorting);
   qn_free(work->mem, s->found, s->found_capacity * sizeof *s->found);
-  qn_free(work->mem, s->names, s->name_capacity * sizeof *s->names);
+  qn_free(work->mem, s->boundary, s->boundary_capacity * sizeof *s->boundary);
+  qn_free(work->mem, s->found_of, s->run_capacity * sizeof *s->found_of);
+  qn_free(work->mem, s->boundary_of, s->boundary_run_capacity * sizeof *s->boundary_of);
   qn_free_line(work->mem, s, sizeof *s);
   work->sheaf = NULL;
 }
@@ -239,20 +249,7 @@ static int change_group(const lane_walk *w, event *e, size_t n, uint64_t *last) 
   return flips & 1;
 }
 
-static quoin_end end_of(const lane_walk *w, double t, uint64_t name) {
-  if (name == QN_SHEAF_CUT) {
-    return (quoin_end){t == 0 ? 0 : t, QUOIN_NO_PART, QUOIN_BODY};
-  }
-  const uint32_t part = slot_of(w, name)->leaf;
-  const qn_leaf *leaf = &w->scene->leaves[part];
-  const qn_half *half = &w->scene->halves[leaf->half0];
-  for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
-    half++;
-  }
-  return (quoin_end){t, part, half->role};
-}
-
-/* Whether a place is where the packet's findings mean something. */
+/* Whether a place is where the packet's findings mean something, when some leaf was solved in the solid's box only. */
 static int in_box(const qn_sheaf *s, const quoin_scene *scene, unsigned lane, double t) {
   for (int i = 0; i < 3; i++) {
     double step = t * s->packet.d[i][lane], x = s->packet.o[i][lane] + step;
@@ -264,28 +261,32 @@ static int in_box(const qn_sheaf *s, const quoin_scene *scene, unsigned lane, do
   return 1;
 }
 
-/* The value changes back: a stretch from what is open to t, cut to the range. There is room for it. */
+static uint64_t payload_of(const lane_walk *w, uint64_t name) {
+  return name == QN_SPAN_CUT ? name : (name & SAME_PLACE) | (uint64_t)slot_of(w, name)->leaf << 32;
+}
+
+/* The value changes back: a stretch from what is open to t, cut to the range. There is room for it: a stretch for every second end, and one more. */
 QN_INLINE void add(lane_walk *w, double t, uint64_t name) {
   qn_sheaf *s = w->sheaf;
   double a = w->open_t, b = t;
   uint64_t pa = w->open, pb = name;
-  w->sure &= (fabs(a - w->from) > w->tolerance || pa == QN_SHEAF_CUT) & (fabs(b - w->to) > w->tolerance || pb == QN_SHEAF_CUT) &
+  w->sure &= (fabs(a - w->from) > w->tolerance || pa == QN_SPAN_CUT) & (fabs(b - w->to) > w->tolerance || pb == QN_SPAN_CUT) &
              (fabs(b - w->from) > w->tolerance) & (fabs(a - w->to) > w->tolerance);
   if (b <= w->from || a >= w->to) {
     return;
   }
   if (a < w->from) {
-    a = w->from, pa = QN_SHEAF_CUT;
+    a = w->from, pa = QN_SPAN_CUT;
   }
   if (b > w->to) {
-    b = w->to, pb = QN_SHEAF_CUT;
+    b = w->to, pb = QN_SPAN_CUT;
   }
   w->sure &= fabs(a) <= s->spans.reach && fabs(b) <= s->spans.reach;
-  if (s->spans.limited) {
-    w->sure &= in_box(s, w->scene, w->lane, a) && in_box(s, w->scene, w->lane, b);
-  }
-  s->names[2 * s->found_count] = pa, s->names[2 * s->found_count + 1] = pb;
-  s->found[s->found_count++] = (quoin_interval){end_of(w, a, pa), end_of(w, b, pb)};
+  const size_t at = (size_t)s->spans.row_count[w->lane] * QN_LANES + w->lane;
+  const uint64_t na = payload_of(w, pa), nb = payload_of(w, pb);
+  s->spans.row_t[at] = a, s->spans.row_t[at + QN_LANES] = b;
+  memcpy(&s->spans.row_name[at], &na, sizeof na), memcpy(&s->spans.row_name[at + QN_LANES], &nb, sizeof nb);
+  s->spans.row_count[w->lane] += 2;
 }
 
 /* Whether the sorted ends' order is certain; ends at one place come in a row. */
@@ -298,13 +299,14 @@ QN_INLINE int in_order(const event *e, size_t n, double tolerance) {
   return 1;
 }
 
-/* 0: the lane is not for doubles. Its stretches are added to the sheaf. */
+/* 0: the lane is not for doubles. Its stretches become rows. */
 static int weave(quoin_work *work, unsigned lane) {
   qn_sheaf *s = work->sheaf;
   const quoin_scene *scene = work->scene;
   const size_t n = gather(s, work->wide->width, lane);
   event *e = s->events;
-  lane_walk w = {scene, s, s->spans.slots + (size_t)(lane / work->wide->width) * s->spans.capacity, s->packet.from[lane], s->packet.to[lane], s->spans.tolerance[lane], lane, 1, -HUGE_VAL, QN_SHEAF_CUT};
+  s->spans.row_count[lane] = 0;
+  lane_walk w = {scene, s, s->spans.slots + (size_t)(lane / work->wide->width) * s->spans.capacity, s->packet.from[lane], s->packet.to[lane], s->spans.tolerance[lane], lane, 1, -HUGE_VAL, QN_SPAN_CUT};
   if (!in_order(e, n, w.tolerance)) {
     return 0;
   }
@@ -336,7 +338,7 @@ static int weave(quoin_work *work, unsigned lane) {
     }
   }
   if (value) {
-    add(&w, HUGE_VAL, QN_SHEAF_CUT);
+    add(&w, HUGE_VAL, QN_SPAN_CUT);
   }
   for (; i < n; i++) { /* back to rest */
     change(&w, e[i].name);
@@ -344,23 +346,24 @@ static int weave(quoin_work *work, unsigned lane) {
   return w.sure;
 }
 
-/* --- parameters, correctly rounded ---------------------------------------------------------------------------------------- */
+/* --- parameters, correctly rounded, and answers ----------------------------------------------------------------------------- */
 
-/* The rays of a packet, and how their lines are had. */
+/* How the lines of a packet are had when not from its doubles. */
 typedef struct bundle {
-  const quoin_ray *rays;
   qn_sheaf_line line;
   const void *user;
 } bundle;
 
-static quoin_status round_alone(quoin_work *work, const bundle *b, size_t i, double e, uint64_t name, double *t) {
+static quoin_status round_alone(quoin_work *work, const bundle *b, unsigned lane, double e, uint64_t name, double *t) {
   qn_query_begin(work);
   qn_line line;
   quoin_status status = QUOIN_OK;
   if (b->line) {
-    status = b->line(work, b->user, i, &line);
+    status = b->line(work, b->user, lane, &line);
   } else {
-    qn_line_from_doubles(b->rays[i].o, b->rays[i].d, &line);
+    const qn_packet *p = &work->sheaf->packet;
+    const double o[3] = {p->o[0][lane], p->o[1][lane], p->o[2][lane]}, d[3] = {p->d[0][lane], p->d[1][lane], p->d[2][lane]};
+    qn_line_from_doubles(o, d, &line);
   }
   if (status != QUOIN_OK) {
     return status;
@@ -370,42 +373,69 @@ static quoin_status round_alone(quoin_work *work, const bundle *b, size_t i, dou
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* The j-th ends of all lanes at once: neighbours' are mostly on one surface. */
-static quoin_status round_all(quoin_work *work, const bundle *b, uint64_t lanes) {
-  qn_sheaf *s = work->sheaf;
+/* Row by row: neighbours' ends are mostly on one surface. */
+static quoin_status round_rows(quoin_work *work, const bundle *b, uint64_t lanes) {
+  qn_packet_spans *s = &work->sheaf->spans;
   qn_packet_hits hits;
   _Alignas(64) double rounded[QN_LANES];
-  quoin_end *end[QN_LANES];
   quoin_status status = QUOIN_OK;
+  for (uint64_t m = lanes; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    lanes &= ~((uint64_t)!s->row_count[lane] << lane);
+    hits.error[lane] = s->tolerance[lane] / 2;
+  }
   for (uint32_t j = 0; lanes && status == QUOIN_OK; j++) {
+    double *t = s->row_t + (size_t)j * QN_LANES;
+    const double *names = s->row_name + (size_t)j * QN_LANES;
     uint64_t now = 0;
     for (uint64_t m = lanes; m; m &= m - 1) {
-      unsigned lane = qn_trailing_zeros(m);
-      size_t at = s->first[lane] + j / 2;
-      if (at == s->first[lane + 1]) {
+      const unsigned lane = qn_trailing_zeros(m);
+      if (s->row_count[lane] <= j) {
         lanes &= ~((uint64_t)1 << lane);
         continue;
       }
-      uint64_t name = s->names[2 * at + j % 2];
-      if (name == QN_SHEAF_CUT) {
-        continue;
-      }
-      end[lane] = j % 2 ? &s->found[at].leave : &s->found[at].enter;
-      hits.t[lane] = end[lane]->t, hits.error[lane] = s->spans.tolerance[lane] / 2;
-      hits.surface[lane] = (uint32_t)name;
-      now |= (uint64_t)1 << lane;
+      uint64_t name;
+      memcpy(&name, &names[lane], sizeof name);
+      hits.t[lane] = t[lane], hits.surface[lane] = (uint32_t)name, hits.leaf[lane] = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
+      now |= (uint64_t)(name != QN_SPAN_CUT) << lane;
     }
-    uint64_t sure = now ? work->wide->round(work->scene, &s->packet, &hits, now, rounded, &qn_scratch_counts(work->scratch)->exact_forms) : 0;
+    const uint64_t sure = now ? work->wide->round(work->scene, &work->sheaf->packet, &hits, now, rounded, &qn_scratch_counts(work->scratch)->exact_forms) : 0;
     for (uint64_t m = sure; m; m &= m - 1) {
-      unsigned lane = qn_trailing_zeros(m);
-      end[lane]->t = rounded[lane];
+      const unsigned lane = qn_trailing_zeros(m);
+      t[lane] = rounded[lane];
     }
-    for (uint64_t m = now & ~sure; m && status == QUOIN_OK; m &= m - 1) {
-      unsigned lane = qn_trailing_zeros(m);
-      status = round_alone(work, b, lane, hits.error[lane], s->names[2 * (s->first[lane] + j / 2) + j % 2], &end[lane]->t);
+    now &= ~sure;
+    for (uint64_t m = now; m && status == QUOIN_OK; m &= m - 1) {
+      const unsigned lane = qn_trailing_zeros(m);
+      uint64_t name;
+      memcpy(&name, &names[lane], sizeof name);
+      status = round_alone(work, b, lane, hits.error[lane], name, &t[lane]);
     }
   }
   return status;
+}
+
+QN_INLINE quoin_end end_of(const quoin_scene *scene, const double *t, const double *payload) {
+  uint64_t name;
+  memcpy(&name, payload, sizeof name);
+  if (QN_UNLIKELY(name == QN_SPAN_CUT)) {
+    return (quoin_end){*t == 0 ? 0 : *t, QUOIN_NO_PART, QUOIN_BODY}; /* no negative zero */
+  }
+  const uint32_t part = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
+  const qn_leaf *leaf = &scene->leaves[part];
+  const qn_half *half = &scene->halves[leaf->half0];
+  for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
+    half++;
+  }
+  return (quoin_end){*t, part, half->role};
+}
+
+void qn_sheaf_write(const quoin_work *work, unsigned lane, quoin_interval *out) {
+  const qn_packet_spans *s = &work->sheaf->spans;
+  const double *t = s->row_t + lane, *name = s->row_name + lane;
+  for (uint32_t j = 0; j < s->row_count[lane]; j += 2, t += 2 * QN_LANES, name += 2 * QN_LANES) {
+    *out++ = (quoin_interval){end_of(work->scene, t, name), end_of(work->scene, t + QN_LANES, name + QN_LANES)};
+  }
 }
 
 /* --- the packet ------------------------------------------------------------------------------------------------------------ */
@@ -440,6 +470,55 @@ static void fill_low(qn_packet *p, size_t lanes, size_t n, double (*low)[6]) {
   }
 }
 
+static int in_boxes(const quoin_work *work, unsigned lane) {
+  const qn_packet_spans *s = &work->sheaf->spans;
+  int in = 1;
+  for (uint32_t j = 0; in && j < s->row_count[lane]; j++) {
+    in = in_box(work->sheaf, work->scene, lane, s->row_t[(size_t)j * QN_LANES + lane]);
+  }
+  return in;
+}
+
+/* The packet's rows, rounded; of the lanes in *sure. */
+static quoin_status make_rows(quoin_work *work, const bundle *b, uint64_t *sure) {
+  qn_sheaf *s = work->sheaf;
+  const uint64_t live = s->packet.live;
+  quoin_status status = solve(work);
+  if (status != QUOIN_OK) {
+    return status;
+  }
+  uint64_t lanes = s->spans.merged, rest = live & ~(s->spans.merged | s->spans.unsure);
+  if (QN_UNLIKELY(rest)) {
+    uint32_t most = 0;
+    for (unsigned g = 0; g < QN_LANES / work->wide->width; g++) {
+      most = s->spans.count[g] > most ? s->spans.count[g] : most;
+    }
+    if (!qn_grow(work->mem, &s->events, &s->event_capacity, 2 * (size_t)most) || !qn_grow(work->mem, &s->sorting, &s->sorting_capacity, 2 * (size_t)most)) {
+      return QUOIN_E_MEMORY;
+    }
+    s->ordered = UINT32_MAX;
+    for (; rest; rest &= rest - 1) {
+      const unsigned lane = qn_trailing_zeros(rest);
+      if (!(s->packet.from[lane] < s->packet.to[lane])) {
+        s->spans.row_count[lane] = 0;
+        lanes |= (uint64_t)1 << lane;
+      } else {
+        lanes |= (uint64_t)weave(work, lane) << lane;
+      }
+    }
+  }
+  for (uint64_t m = s->spans.limited ? lanes : 0; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    lanes &= ~((uint64_t)!in_boxes(work, lane) << lane);
+  }
+  *sure = lanes;
+  qn_counts *counts = qn_scratch_counts(work->scratch);
+  const uint64_t answered = (uint64_t)__builtin_popcountll(lanes);
+  counts->rays += answered;
+  counts->exact_rays += (uint64_t)__builtin_popcountll(live) - answered;
+  return round_rows(work, b, lanes);
+}
+
 quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], qn_sheaf_line line, const void *user, uint64_t *sure) {
   *sure = 0;
   if (!make(work)) {
@@ -451,37 +530,27 @@ quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, do
   if (low) {
     fill_low(&s->packet, lanes, n, low);
   }
-  quoin_status status = solve(work);
+  quoin_status status = make_rows(work, &(bundle){line, user}, sure);
   if (status != QUOIN_OK) {
     return status;
   }
-  uint32_t most = 0;
-  for (unsigned g = 0; g < QN_LANES / work->wide->width; g++) {
-    most = s->spans.count[g] > most ? s->spans.count[g] : most;
+  size_t count = 0;
+  for (unsigned lane = 0; lane < n; lane++) {
+    s->first[lane] = (uint32_t)count;
+    count += *sure >> lane & 1 ? s->spans.row_count[lane] / 2 : 0;
   }
-  if (!qn_grow(work->mem, &s->events, &s->event_capacity, 2 * (size_t)most) || !qn_grow(work->mem, &s->sorting, &s->sorting_capacity, 2 * (size_t)most)) {
+  s->first[n] = (uint32_t)count;
+  if (!qn_grow(work->mem, &s->found, &s->found_capacity, count)) {
     return QUOIN_E_MEMORY;
   }
-  s->found_count = 0, s->ordered = UINT32_MAX;
-  for (unsigned lane = 0; lane < n; lane++) {
-    const size_t began = s->found_count, room = began + most + 1; /* a stretch for every second end, and one more */
-    s->first[lane] = (uint32_t)began;
-    if (s->spans.unsure >> lane & 1 || !(rays[lane].from < rays[lane].to)) {
-      *sure |= (uint64_t)!(s->spans.unsure >> lane & 1) << lane;
-      continue;
-    }
-    if (!qn_grow(work->mem, &s->found, &s->found_capacity, room) || !qn_grow(work->mem, &s->names, &s->name_capacity, 2 * room)) {
-      return QUOIN_E_MEMORY;
-    }
-    if (weave(work, lane)) {
-      *sure |= (uint64_t)1 << lane;
-    } else {
-      s->found_count = began;
-    }
+  s->found_count = count;
+  for (uint64_t m = *sure; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    qn_sheaf_write(work, lane, s->found + s->first[lane]);
   }
-  s->first[n] = (uint32_t)s->found_count;
-  qn_counts *counts = qn_scratch_counts(work->scratch);
-  counts->rays += (uint64_t)__builtin_popcountll(*sure);
-  counts->exact_rays += n - (uint64_t)__builtin_popcountll(*sure);
-  return round_all(work, &(bundle){rays, line, user}, *sure);
+  return QUOIN_OK;
 }
+
+qn_packet *qn_sheaf_packet(quoin_work *work) { return make(work) ? &work->sheaf->packet : NULL; }
+
+quoin_status qn_sheaf_tile(quoin_work *work, uint64_t *sure) { return make_rows(work, &(bundle){NULL, NULL}, sure); }

@@ -4,9 +4,6 @@
 
 #include "query/work.h"
 
-/* What a place is made of, for who rounds it: a payload of wide/packet.h, or QN_SHEAF_CUT where the ray is cut or infinite. */
-#define QN_SHEAF_CUT UINT64_MAX
-
 typedef struct qn_sheaf_event { double t; uint64_t name; } qn_sheaf_event; /* name: a payload with the slot in the leaf's place, and QN_SHEAF_ENTERS */
 #define QN_SHEAF_ENTERS ((uint64_t)1 << 63)
 
@@ -21,8 +18,10 @@ struct qn_sheaf {
   uint32_t ordered;      /* the group whose slots `order` is of */
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
-  uint64_t *names;       size_t name_capacity; /* two for each of found */
   uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
+  /* Of a grid: found is all of it, and */
+  quoin_interval *boundary; size_t boundary_count, boundary_capacity;
+  quoin_run *found_of, *boundary_of; size_t run_capacity, boundary_run_capacity; /* by ray */
 };
 
 /* Where the exact line of ray i is when it is wanted: after qn_query_begin. */
@@ -32,6 +31,12 @@ typedef quoin_status (*qn_sheaf_line)(quoin_work *work, const void *user, size_t
    first[i] on, in full and as the woven path would; the others are for that path. Rays that do not go together are slow here.
    low: null, or for each ray the rests of its origin and direction (QN_TILE_PAIRS in wide/packet.h); line, user: null, or the lines where rays are not all of them. */
 quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], qn_sheaf_line line, const void *user, uint64_t *sure);
+
+/* The packet to fill in for qn_sheaf_tile, the same each time; null when memory is refused. */
+qn_packet *qn_sheaf_packet(quoin_work *work);
+/* Answers that packet. *sure: the lanes that are; lane i has work->sheaf->spans.row_count[i] / 2 stretches, which qn_sheaf_write writes. */
+quoin_status qn_sheaf_tile(quoin_work *work, uint64_t *sure);
+void qn_sheaf_write(const quoin_work *work, unsigned lane, quoin_interval *out);
 void qn_sheaf_free(quoin_work *work);
 
 #endif

@@ -89,13 +89,19 @@ typedef struct qn_packet_spans {
   uint64_t unsure;       /* lanes given up */
   double reach;          /* nothing that is found at a larger |t| means anything */
   _Alignas(64) double tolerance[QN_LANES]; /* two places further apart than this are in the order of their doubles; half of it bounds each error */
+  /* The solid's own stretches in the lanes of `merged`: of lane i, ends 0 to row_count[i] - 1, in order, end j at row_t[j QN_LANES + i], its payload
+     as bits likewise. Of simple programs only (wide/spans_merge.h). There is room for 2 capacity + 2 rows. */
+  double *row_t, *row_name; /* aligned to 64 */
+  uint32_t row_count[QN_LANES];
+  uint64_t merged;
 } qn_packet_spans;
 #define QN_SPAN_FAR 0x1p+500
+#define QN_SPAN_CUT UINT64_MAX /* instead of a payload, in a row: where the ray's range cuts the stretch */
 /* A payload: the surface (low half), the leaf, and whether it is the larger of the surface's two roots on that ray. */
 #define QN_SPAN_LARGER ((uint64_t)1 << 62)
 #define QN_SPAN_LEAF 0x3fffffffu /* of the upper half */
 
-/* Fills spans; live lanes must have from < to or are not solved. No tiles. */
+/* Fills spans; live lanes must have from < to or are not solved. A tile's origins are filled in unless nothing is near. */
 typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
 struct qn_point_walk;
 /* The sides of points, as far as doubles certify them: wide/points.h. */

@@ -1,11 +1,11 @@
 /* Every stretch of a packet's rays in the leaves that they meet. Compiled behind packet_body.h for each instruction set and number of lanes.
 
    The hierarchy of all leaves is walked once for the packet, nearest boxes first, so that a lane's stretches come nearly in order; each leaf
-   is solved for the lanes whose boxes meet its own. Merging is left to others: it takes the order of ends, which the tolerances certify. */
+   is solved for the lanes whose boxes meet its own. Of a simple program they are then merged (spans_merge.h); else that is left to others. */
 #ifndef QN_WIDE_SPANS_BODY_H
 #define QN_WIDE_SPANS_BODY_H
 
-#include "wide/term.h"
+#include "wide/spans_merge.h"
 
 _Static_assert(QN_SPAN_LARGER == QN_LARGER_ROOT && QN_SPAN_LEAF == QN_LEAF_BITS, "packet.h tells what payloads are");
 
@@ -59,23 +59,65 @@ static void leaf_spans(walk *w, uint32_t leaf, uint64_t mask, qn_packet_spans *o
   leaf_spans_of(w, QN_PIECE_ROUND, head, mask, out);
 }
 
+/* A node's child that is met from `near` on. */
+typedef struct span_child { float near; uint32_t child, node, slot; } span_child;
+
+/* Farthest first, so that the nearest is taken next. */
+QN_INLINE void wait_for(span_child *stack, int *top, const qn_bvh *bvh, uint32_t node, unsigned meets, const float near[8]) {
+  const int first = *top;
+  for (; meets; meets &= meets - 1) {
+    unsigned c = qn_trailing_zeros(meets);
+    int j = (*top)++;
+    for (; j > first && stack[j - 1].near < near[c]; j--) {
+      stack[j] = stack[j - 1];
+    }
+    stack[j] = (span_child){near[c], bvh->nodes[node].child[c], node, c};
+  }
+}
+
+/* Where some lanes have no range, or one beyond what floats hold. */
+static QN_NOINLINE void ranges(const qn_packet *packet, uint64_t *mask, float *start, float *end) {
+  double from = INFINITY, to = -INFINITY;
+  for (uint64_t m = packet->live; m; m &= m - 1) {
+    unsigned k = qn_trailing_zeros(m);
+    *mask &= ~((uint64_t)!(packet->from[k] < packet->to[k]) << k);
+    from = least(from, packet->from[k]), to = most(to, packet->to[k]);
+  }
+  const double most_t = QN_WIDE_LARGEST; /* as a float; what lies beyond is not told apart */
+  *start = from < -most_t ? -INFINITY : down(least(from, most_t)), *end = to > most_t ? INFINITY : up(most(to, -most_t));
+}
+
 void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *out, qn_wide_counts *counts);
 void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *out, qn_wide_counts *counts) {
   walk w;
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
-  out->full = out->limited = 0, out->unsure = 0, out->reach = INFINITY;
+  out->full = out->limited = 0, out->unsure = out->merged = 0, out->reach = INFINITY;
   memset(out->count, 0, sizeof out->count);
   counts->packets++;
   if (!facts(&w, packet)) { /* numbers for which no bound is given */
     out->unsure = packet->live;
     return;
   }
-  double from = INFINITY, to = -INFINITY;
-  uint64_t mask = 0;
-  for (uint64_t m = packet->live; m; m &= m - 1) {
-    unsigned k = qn_trailing_zeros(m);
-    mask |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
-    from = least(from, packet->from[k]), to = most(to, packet->to[k]);
+  memset(out->row_count, 0, sizeof out->row_count);
+  float start = packet->soonest, end = packet->latest;
+  uint64_t mask = packet->live;
+  if (QN_UNLIKELY(packet->empty || !(start <= end))) { /* no numbers: they lie beyond floats */
+    ranges(packet, &mask, &start, &end);
+  }
+  _Alignas(32) float near[8];
+  unsigned meets = 0;
+  if (scene->bvh.node_count && mask) {
+    w.counts.nodes++;
+    meets = node_meets(&w, &scene->bvh.nodes[0], start, end, near);
+  }
+  if (!meets && !scene->unbounded_count) { /* nothing near: no ray need be made */
+    out->merged = scene->program.base ? 0 : packet->live;
+    out->reach = w.f.reach;
+    counts->nodes += w.counts.nodes;
+    return;
+  }
+  if (packet->tile == QN_TILE_ORIGINS) {
+    fill_tile(packet, packet->o);
   }
   for (int j = 0; j < QN_LANES_NOW; j += QN_W) {
     vstore(w.tolerance + j, vset(0));
@@ -83,13 +125,9 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
   for (size_t i = 0; i < scene->unbounded_count; i++) {
     leaf_spans(&w, scene->unbounded[i], mask & ~w.unsure, out);
   }
-  struct { float near; uint32_t child, node, slot; } stack[STACK];
+  span_child stack[STACK];
   int top = 0;
-  const double most_t = QN_WIDE_LARGEST; /* as a float; what lies beyond is not told apart */
-  const float start = from < -most_t ? -INFINITY : down(least(from, most_t)), end = to > most_t ? INFINITY : up(most(to, -most_t));
-  if (scene->bvh.node_count && mask) {
-    stack[top].near = -INFINITY, stack[top].child = 0, stack[top].node = stack[top].slot = 0, top++;
-  }
+  wait_for(stack, &top, &scene->bvh, 0, meets, near);
   while (top && !out->full) {
     top--;
     uint32_t at = stack[top].child;
@@ -100,23 +138,18 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
       }
       continue;
     }
-    const qn_bvh_node *n = &scene->bvh.nodes[at];
-    _Alignas(32) float near[8];
     w.counts.nodes++;
-    int first = top;
-    for (unsigned meets = node_meets(&w, n, start, end, near); meets; meets &= meets - 1) { /* farthest first, so that the nearest is taken next */
-      unsigned c = qn_trailing_zeros(meets);
-      int j = top++;
-      for (; j > first && stack[j - 1].near < near[c]; j--) {
-        stack[j] = stack[j - 1];
-      }
-      stack[j].near = near[c], stack[j].child = n->child[c], stack[j].node = at, stack[j].slot = c;
-    }
+    meets = node_meets(&w, &scene->bvh.nodes[at], start, end, near);
+    wait_for(stack, &top, &scene->bvh, at, meets, near);
   }
   memcpy(out->tolerance, w.tolerance, sizeof w.tolerance);
   out->unsure = w.unsure & packet->live;
   out->reach = w.f.reach;
   counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
+  if (!out->full) {
+    merge_groups(&w, out);
+    out->merged &= packet->live & ~w.unsure;
+  }
 }
 
 #endif

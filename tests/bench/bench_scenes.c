@@ -15,7 +15,7 @@
 
 static const char USAGE[] =
     "usage: bench_scenes MODEL.csg CAMERA [options]\n"
-    "  --paths A,B     only these (single rows tiles grid-t grid intervals-single intervals intervals-exact shadow-single shadow\n"
+    "  --paths A,B     only these (single rows tiles grid-t grid intervals-single intervals grid-intervals intervals-exact shadow-single shadow\n"
     "                  random-single random random-all-single random-all spots-single spots random-spots-single random-spots\n"
     "                  blocked-single blocked points-single points);\n"
     "                  default all\n"

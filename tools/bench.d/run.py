@@ -16,7 +16,7 @@ import report # noqa: E402
 import scenes # noqa: E402
 
 SCENES = ['sphere1', 'plate1000', 'spheres10k', 'spheres1M', 'tree1024', 'tree1024fat', 'menger4', 'parts2000', 'plate100k', 'tree65k', 'coplanar', 'part50', 'part50flush']
-QUICK_PATHS = ['single', 'tiles', 'grid-t', 'grid', 'intervals', 'intervals-exact', 'shadow', 'random-single', 'random', 'points']
+QUICK_PATHS = ['single', 'tiles', 'grid-t', 'grid', 'intervals', 'grid-intervals', 'intervals-exact', 'shadow', 'random-single', 'random', 'points']
 QUICK_SCENES = ['sphere1', 'plate1000', 'spheres10k', 'tree1024', 'menger4']
 SPHERES = ['sphere1', 'spheres10k', 'spheres1M']
 NO_POVRAY = ['spheres1M', 'parts2000', 'plate100k', 'tree65k'] # too large for it
@@ -315,7 +315,7 @@ GROWTH = {
     'menger': [1, 2, 3, 4, 5],
 }
 GROWTH_QUICK = {'spheres': [10, 1000, 10000], 'plate': [10, 1000, 10000], 'tree': [10, 1000, 10000], 'menger': [1, 3, 4]}
-GROWTH_PATHS = ['single', 'grid', 'intervals', 'random', 'points']
+GROWTH_PATHS = ['single', 'grid', 'grid-intervals', 'random', 'points']
 THREAD_SCENES = ['plate1000', 'spheres10k', 'tree1024']
 
 
