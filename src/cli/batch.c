@@ -199,7 +199,7 @@ static void complete(block *b, size_t i) {
     slot *s = &b->slots[b->head % b->slot_count];
     pthread_mutex_unlock(&b->lock);
     int failed = cli_out_write(b->out, s->text.data, s->text.length);
-    int code = failed ? CLI_IO : cli_code(s->fault.status);
+    int code = failed ? (int)CLI_IO : cli_code(s->fault.status);
     if (!failed && code != CLI_OK) { /* what was answered before the fault is out before it is said */
       cli_out_flush(b->out);
       if (s->fault.status == QUOIN_E_MEMORY) {
@@ -404,7 +404,8 @@ static int say_refused(const cli_batch *batch, quoin_work *work, quoin_status st
     cli_error("%s is not a number (%s %lu, number %u; %s)", cli_quote(&q, numbers[bad]), batch->kind.what, index, bad + 1,
               CLI_NUMBER_RULE(status));
     return CLI_USAGE;
-  } else if (status == QUOIN_E_NUMBER) { /* all are, but there are too few */
+  }
+  if (status == QUOIN_E_NUMBER) { /* all are, but there are too few */
     cli_error("the last %s has %u number%s of %u: %s", batch->kind.what, count, count == 1 ? "" : "s", batch->kind.numbers,
               batch->kind.shape);
   } else if (status == QUOIN_E_ARGUMENT && count == 6 && cli_is_zero(numbers[3]) && cli_is_zero(numbers[4]) && cli_is_zero(numbers[5])) {

@@ -39,7 +39,7 @@ void cli_batch_free(cli_batch *batch);
 /* The whole of a command that asks questions: rows from the operands if there are any, else from `input` (null:
    standard input, unless the model came from there). Loads the model, prints statistics if wanted. `prepare` (may be null) runs
    once before the first row; it returns 0 or the exit code after a message. */
-int cli_batch_run(cli_batch *batch, const cli_command *command, const cli_common *common, const char *input,
+int cli_batch_run(cli_batch *batch, const cli_command *command, const cli_common *common, const char *source,
                   int (*prepare)(cli_batch *batch));
 
 #endif

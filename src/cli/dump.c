@@ -49,7 +49,7 @@ static int run(const cli_command *self, int argc, char **argv, int compile) {
     if (status != QUOIN_OK && closed == CLI_OK) { /* it was not the writing that failed */
       cli_error("cannot print %s: %s", cli_quote(&q, path), quoin_status_text(status));
     }
-    code = closed != CLI_OK ? closed : (int)cli_code(status);
+    code = closed != CLI_OK ? closed : cli_code(status);
   }
   if (common.stats) {
     cli_stats stats = {.json = 0};

@@ -91,7 +91,7 @@ static int unknown(const char *word) {
 
 int main(int argc, char **argv) {
   keep_standard_streams();
-  signal(SIGPIPE, SIG_IGN); /* a reader that went away shows up as an error of write, and is dealt with there */
+  (void)signal(SIGPIPE, SIG_IGN); /* a reader that went away shows up as an error of write, and is dealt with there */
   const char *word = argc > 1 ? argv[1] : NULL;
   if (!word) {
     cli_error("no command given");

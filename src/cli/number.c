@@ -146,7 +146,7 @@ size_t cli_format_number(char out[CLI_NUMBER_SIZE], double x) {
       at += count - whole;
     }
   } else if (exponent < 0 && exponent >= -4) {
-    memcpy(at, "0.000", 5);
+    memcpy(at, "0.000", 5); /* NOLINT(bugprone-not-null-terminated-result): the end comes later */
     at += 1 - exponent;
     memcpy(at, text, (size_t)count);
     at += count;
@@ -157,7 +157,7 @@ size_t cli_format_number(char out[CLI_NUMBER_SIZE], double x) {
       memcpy(at, text + 1, (size_t)(count - 1));
       at += count - 1;
     }
-    memcpy(at, "e-", 2); /* a large exponent is not for this */
+    memcpy(at, "e-", 2); /* NOLINT(bugprone-not-null-terminated-result) as above; */ /* a large exponent is not for this */
     put_pairs(at + 2, (uint32_t)-exponent, 1);
     at += 4;
   }

@@ -133,8 +133,8 @@ static const char *option_name(const void *user, int i) {
 
 int cli_take_unsigned(const char *option, const char *value, unsigned long low, unsigned long high, unsigned *out) {
   unsigned long n = 0;
-  int good = value[0] != '\0';
-  for (const char *c = value; *c && good; c++) {
+  int good = value && value[0] != '\0'; /* the command line's options that take a value have one */
+  for (const char *c = value; good && *c; c++) {
     good = *c >= '0' && *c <= '9';
     if (good && n <= high) { /* once above, it stays above */
       n = n * 10 + (unsigned long)(*c - '0');
@@ -175,7 +175,7 @@ int cli_take_numbers(const char *option, const char *value, int count, double *o
 
 int cli_take_decimal(const char *option, const char *value) {
   char *end;
-  double v = strtod(value, &end);
+  double v = strtod(value, &end); /* NOLINT(clang-analyzer-core.NonNullParamChecker): as above, there is one */
   if (value[0] == '\0' || strspn(value, "0123456789+-.eE") != strlen(value) || *end || !(v >= 0) || value[0] == '-') {
     cli_quoted q;
     cli_error("%s is not a value for --%s; give a decimal number, 0 or more", cli_quote(&q, value), option);
@@ -192,7 +192,7 @@ static int take_common(cli_common *common, int id, const char *value) {
   case CLI_SNAP: common->snap = value; return cli_take_decimal("snap", value);
   case CLI_THREADS: return cli_take_unsigned("threads", value, 0, 1024, &common->threads);
   case CLI_FACETS:
-    if (strcmp(value, "auto") == 0) {
+    if (strcmp(value, "auto") == 0) { /* NOLINT(clang-analyzer-core.NonNullParamChecker): there is one */
       common->facets = QUOIN_FACETS_AUTO;
     } else if (strcmp(value, "honour") == 0 || strcmp(value, "honor") == 0) {
       common->facets = QUOIN_FACETS_HONOUR;

@@ -143,7 +143,7 @@ static int report(void *user, double done) {
   if (percent != j->shown) {
     j->shown = percent;
     fprintf(stderr, "\rrendering %3d%%", percent);
-    fflush(stderr);
+    (void)fflush(stderr);
   }
   return 0;
 }

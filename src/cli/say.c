@@ -66,7 +66,7 @@ size_t cli_say_diags(const quoin_model *model, int quiet) {
   return errors;
 }
 
-cli_exit cli_code(quoin_status status) {
+int cli_code(quoin_status status) {
   switch (status) {
   case QUOIN_OK: return CLI_OK;
   case QUOIN_E_MODEL:

@@ -29,6 +29,6 @@ void cli_say_diag(const quoin_diag *diag);
 size_t cli_say_diags(const quoin_model *model, int quiet);
 
 /* The exit code of a status. */
-cli_exit cli_code(quoin_status status);
+int cli_code(quoin_status status);
 
 #endif

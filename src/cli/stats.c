@@ -69,7 +69,7 @@ void cli_stats_say(cli_stats *stats) {
   if (stats->json) {
     fputs("{\"stats\":{", stderr);
   }
-  fwrite(stats->text.data, 1, stats->text.length, stderr);
+  (void)fwrite(stats->text.data, 1, stats->text.length, stderr);
   if (stats->json) {
     fputs("}}\n", stderr);
   }

@@ -12,8 +12,8 @@ typedef struct cli_stats {
   cli_text text;
 } cli_stats;
 
-void cli_stats_seconds(cli_stats *stats, const char *name, double seconds);
-void cli_stats_count(cli_stats *stats, const char *name, uint64_t count);
+void cli_stats_seconds(cli_stats *stats, const char *word, double seconds);
+void cli_stats_count(cli_stats *stats, const char *word, uint64_t count);
 /* The times of reading and compiling, and what the scene is made of. */
 void cli_stats_load(cli_stats *stats, const cli_loaded *loaded);
 /* The counters of questions. */

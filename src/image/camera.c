@@ -50,6 +50,7 @@ static int make_frame(const double look_along[3], const double wished_up[3], dou
 
 /* The tangent of an angle in (0, 90) degrees, of plain operations, so that it has the same bits on every machine: by Taylor's series of sine and cosine up to
    45 degrees (cut after the 19th power: under 2^-53), by the complement's inverse above. */
+/* NOLINTNEXTLINE(misc-no-recursion): once, by the complement */
 static double tangent(double degrees) {
   if (degrees == 45) {
     return 1;
@@ -239,12 +240,13 @@ void quoin_camera_fit(const quoin_scene *scene, double aspect, quoin_projection 
   }
   qn_framed framed;
   qn_framed_make(scene, min, max, &framed);
-  make_frame(along, c.up, r, u, f);
+  (void)make_frame(along, c.up, r, u, f); /* it is one: neither is zero */
   const int flat = projection == QUOIN_ORTHOGRAPHIC;
   const double s = FRAME_FILL * tangent(c.fov / 2), as = aspect * s;
   double axes[6][3], m[6]; /* A and B to the right, A and B upwards, and how far it reaches towards the eye and away from it */
   for (int i = 0; i < 3; i++) {
     w[i] = -f[i];
+    /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): make_frame wrote them */
     axes[0][i] = r[i] + (flat ? 0 : as * w[i]);
     axes[1][i] = -r[i] + (flat ? 0 : as * w[i]);
     axes[2][i] = u[i] + (flat ? 0 : s * w[i]);

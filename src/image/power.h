@@ -15,7 +15,7 @@
 #define QN_SQRT_HALF_BITS 0x3fe6a09e667f3bcdu
 #define QN_TWO_OVER_LN2 2.8853900817779268
 #define QN_LN2 0.6931471805599453
-#define QN_EXP2_LEAST -1022.0 /* of qn_exp2; what is smaller is as good as 0 to light */
+#define QN_EXP2_LEAST (-1022.0) /* of qn_exp2; what is smaller is as good as 0 to light */
 #define QN_ROUNDER 0x1.8p52 /* added and taken away again: rounds to a whole number, which stands in the sum's low bits */
 
 QN_INLINE double qn_of_bits(uint64_t bits) {

@@ -356,6 +356,7 @@ static quoin_status render_passes(rendering *r) {
   return status;
 }
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): the pixels are written through a task */
 quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *options, unsigned char *pixels, size_t row_bytes,
                           quoin_render_stats *stats) {
   if (!scene || !options || !pixels || options->width == 0 || options->height == 0 || options->width > SIZE_MAX / 8 / options->height ||

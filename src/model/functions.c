@@ -318,5 +318,6 @@ qn_value qn_call_function(qn_evaluator *ev, uint32_t name, uint32_t offset, cons
   if (count < (size_t)r->least || (r->most >= 0 && count > (size_t)r->most)) {
     return wrong(&c, NULL);
   }
+  /* cppcheck-suppress returnDanglingLifetime ; values point into the arena, not into the call */
   return r->make(&c);
 }

@@ -45,7 +45,7 @@ static int color(qn_call *call, int parameter, double rgba[4]) {
   }
   qn_num n[4] = {QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ONE};
   size_t count = qn_arg_vector(call, parameter, 3, 4, 0, n);
-  if (count == 0 || call->not_finite) {
+  if (count < 3 || call->not_finite) { /* 0, 3 or 4 */
     return 0;
   }
   for (size_t i = 0; i < count; i++) {
@@ -88,7 +88,7 @@ uint32_t qn_make_material(qn_call *call) {
   for (int i = 0; i < 4; i++) {
     if (qn_arg_given(call, AMBIENT + i)) {
       *to[i] = qn_arg_double(call, AMBIENT + i, 0);
-      m.has |= QN_HAS_AMBIENT << i;
+      m.has |= (unsigned)QN_HAS_AMBIENT << i;
       if (*to[i] < 0 && !call->bad) {
         qn_arg_tell(call, QN_Q0508, AMBIENT + i, NULL, NULL, "a share of light must not be negative");
       }
@@ -160,7 +160,7 @@ uint32_t qn_make_camera(qn_call *call) {
   if (!call->bad && v.near < 0) {
     qn_arg_tell(call, QN_Q0508, NEAR, NULL, NULL, "'near' must not be negative");
   }
-  if (!call->bad && v.has_look && memcmp(v.eye, v.look, sizeof v.eye) == 0) {
+  if (!call->bad && v.has_look && v.eye[0] == v.look[0] && v.eye[1] == v.look[1] && v.eye[2] == v.look[2]) {
     qn_arg_tell(call, QN_Q0508, LOOK, NULL, NULL, "the camera looks at its own place");
   }
   if (call->bad) {

@@ -112,11 +112,12 @@ static int all_numbers(qn_value v) {
 /* The sum of a[i] b[i], n of them; `stride`: b's items are rows, of which element `column` is meant. */
 static qn_value dot(qn_evaluator *ev, const qn_value *a, const qn_value *b, size_t n, int rows, size_t column) {
   qn_mark mark = qn_arena_mark(&ev->ctx.arena);
-  qn_num *x = qn_arena_take(&ev->ctx.arena, 2 * n * sizeof *x), *y = x + n;
+  qn_num *x = qn_arena_take(&ev->ctx.arena, 2 * n * sizeof *x);
   if (!x) {
     ev->ctx.failed = QUOIN_E_MEMORY;
     return QN_BAD;
   }
+  qn_num *y = x + n;
   int finite = 1;
   for (size_t i = 0; i < n; i++) {
     const qn_value *bi = rows ? &b[i].u.items[column] : &b[i];
@@ -183,6 +184,7 @@ static qn_value product(qn_evaluator *ev, uint32_t offset, qn_value a, qn_value 
 }
 
 /* Element by element: two vectors, or a vector and a number on either side. Depth is at most QN_MAX_VECTOR_DEPTH. */
+/* NOLINTNEXTLINE(misc-no-recursion): no deeper than QN_MAX_VECTOR_DEPTH */
 static qn_value each(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_value a, qn_value b) {
   size_t n = a.kind == QN_V_VECTOR ? a.count : b.count;
   qn_value *items = room(ev, n);
@@ -222,6 +224,7 @@ static qn_value compare(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_val
   }
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): no deeper than QN_MAX_VECTOR_DEPTH */
 qn_value qn_operate(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_value a, qn_value b) {
   if (a.kind == QN_V_BAD || b.kind == QN_V_BAD) {
     return QN_BAD;
@@ -267,6 +270,7 @@ qn_value qn_operate(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_value a
   return undefined(ev, op, offset, a, b, NULL);
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): no deeper than QN_MAX_VECTOR_DEPTH */
 qn_value qn_operate_unary(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_value a) {
   switch (a.kind) {
   case QN_V_BAD: return QN_BAD;

@@ -58,11 +58,11 @@ static int side(qn_ctx *ctx, const qn_num plane[4], const qn_num *p) {
 
 /* The outward plane of a loop of points; 0 when it has no area. */
 static int plane_of(qn_ctx *ctx, const qn_num *points, const uint32_t *corners, size_t count, qn_num plane[4]) {
-  const qn_num *origin = points + 3 * corners[0];
+  const qn_num *origin = points + (size_t)3 * corners[0];
   qn_num n[3] = {QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ZERO};
   qn_num a[3], b[3];
   for (size_t i = 0; i + 1 < count; i++) { /* relative to the first point: smaller numbers, and its own terms are zero */
-    const qn_num *p = points + 3 * corners[i], *q = points + 3 * corners[i + 1];
+    const qn_num *p = points + (size_t)3 * corners[i], *q = points + (size_t)3 * corners[i + 1];
     for (size_t k = 0; k < 3; k++) {
       a[k] = qn_num_sub(ctx, p[k], origin[k]);
       b[k] = qn_num_sub(ctx, q[k], origin[k]);
@@ -95,10 +95,10 @@ size_t qn_polyhedron_face(qn_ctx *ctx, const qn_num plane[4], const qn_num *vert
   }
   /* The corner after `here` is the one that has every other on its right: (next - here) x (other - here) . n < 0. */
   for (size_t k = 0; k + 1 < count; k++) {
-    const qn_num *here = vertices + 3 * corners[k];
+    const qn_num *here = vertices + (size_t)3 * corners[k];
     for (size_t j = k + 2; j < count; j++) {
       qn_mark mark = qn_arena_mark(&ctx->arena);
-      const qn_num *next = vertices + 3 * corners[k + 1], *other = vertices + 3 * corners[j];
+      const qn_num *next = vertices + (size_t)3 * corners[k + 1], *other = vertices + (size_t)3 * corners[j];
       qn_num d[3], e[3], cross[3];
       for (size_t i = 0; i < 3; i++) {
         d[i] = qn_num_sub(ctx, next[i], here[i]);
@@ -191,12 +191,12 @@ static int find_same(body *b) {
       heap[end] = swap;
     }
     for (size_t at = start, child; (child = 2 * at + 1) < end; at = child) {
-      const qn_num *here = b->points + 3 * heap[at];
+      const qn_num *here = b->points + (size_t)3 * heap[at];
       if (child + 1 < end) {
-        int c = order(b->ctx, b->points + 3 * heap[child], b->points + 3 * heap[child + 1]);
+        int c = order(b->ctx, b->points + (size_t)3 * heap[child], b->points + (size_t)3 * heap[child + 1]);
         child += c < 0 || (c == 0 && heap[child] < heap[child + 1]);
       }
-      int c = order(b->ctx, here, b->points + 3 * heap[child]);
+      int c = order(b->ctx, here, b->points + (size_t)3 * heap[child]);
       if (c > 0 || (c == 0 && heap[at] >= heap[child])) {
         break;
       }
@@ -206,7 +206,7 @@ static int find_same(body *b) {
     }
   }
   for (size_t i = 0; i < n; i++) {
-    int equal = i > 0 && order(b->ctx, b->points + 3 * heap[i - 1], b->points + 3 * heap[i]) == 0;
+    int equal = i > 0 && order(b->ctx, b->points + (size_t)3 * heap[i - 1], b->points + (size_t)3 * heap[i]) == 0;
     b->same[heap[i]] = equal ? b->same[heap[i - 1]] : heap[i];
   }
   return 1;
@@ -326,7 +326,7 @@ static int find_planes(body *b) {
       continue; /* no area: it adds nothing but its edges */
     }
     for (uint32_t i = 0; i < l->count; i++) {
-      if (side(b->ctx, plane, b->points + 3 * b->corners[l->first + i]) != 0) {
+      if (side(b->ctx, plane, b->points + (size_t)3 * b->corners[l->first + i]) != 0) {
         qn_arg_tell(b->call, QN_Q0512, FACES, "its points are taken exactly as they are written",
                     "split it into triangles", "face %zu is not plane", f);
         return 0;

@@ -68,6 +68,7 @@ static void real(printer *p, double d) {
   for (int digits = 15; digits <= 17; digits++) {
     snprintf(text, sizeof text, "%.*g", digits, d);
     double back;
+    /* NOLINTNEXTLINE(cert-err34-c): the text was printed from a finite double */
     if (sscanf(text, "%lf", &back) == 1 && back == d) {
       break;
     }

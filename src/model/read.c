@@ -156,7 +156,7 @@ static quoin_status slurp(qn_mem *mem, const char *path, char **text, size_t *le
   }
   int number = errno;
   if (f != stdin) {
-    fclose(f);
+    (void)fclose(f); /* it was only read */
   }
   errno = number;
   return status;

@@ -50,6 +50,7 @@ int qn_value_truth(qn_value v) {
   return 0;
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): no deeper than QN_MAX_VECTOR_DEPTH */
 int qn_value_equal(qn_ctx *ctx, qn_value a, qn_value b) {
   if (a.kind != b.kind) {
     return 0;
@@ -96,6 +97,7 @@ static void put(out *o, const char *text, size_t n) {
   }
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): no deeper than QN_MAX_VECTOR_DEPTH */
 static void put_value(qn_ctx *ctx, out *o, qn_value v) {
   const char *text;
   switch ((qn_value_kind)v.kind) {

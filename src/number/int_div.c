@@ -86,6 +86,7 @@ qn_int qn_int_gcd(qn_ctx *ctx, qn_int a, qn_int b) {
     y = t;
   }
   /* x and y are copies that nobody else sees: the one place where limbs are written after they were made. */
+  /* NOLINTNEXTLINE(performance-no-int-to-ptr): takes const away */
   mp_size_t n = mpn_gcd(d, (mp_limb_t *)(uintptr_t)x.d, x.n, (mp_limb_t *)(uintptr_t)y.d, y.n);
   qn_arena_release(&ctx->arena, mark);
   return qn_int_shl(ctx, qn_limbs_int_(ctx, d, n, 0), twos);

@@ -52,12 +52,14 @@ static mpz_srcptr view(mpz_t z, qn_int a) {
 
 static void set(mpfr_t y, qn_int a) {
   mpz_t z;
+  /* cppcheck-suppress uninitvar ; view fills it */
   mpfr_set_z(y, view(z, a), MPFR_RNDN);
 }
 
 static void quotient(mpfr_t y, qn_int n, qn_int d) {
   mpz_t z;
   set(y, n);
+  /* cppcheck-suppress uninitvar ; view fills it */
   mpfr_div_z(y, y, view(z, d), MPFR_RNDN);
 }
 
@@ -374,6 +376,7 @@ static int exact_root(qn_ctx *ctx, qn_int v, qn_int q, qn_int *out) {
   }
   mpz_t z, r;
   mpz_init(r);
+  /* cppcheck-suppress uninitvar ; view fills it */
   int exact = mpz_root(r, view(z, v), q.d[0]) != 0;
   *out = exact ? qn_int_from_limbs(ctx, mpz_limbs_read(r), (mp_size_t)mpz_size(r), 0) : QN_INT_ZERO_;
   mpz_clear(r);

@@ -90,6 +90,7 @@ static int plus_minus(qn_ctx *ctx, const signed_root *x, const signed_root *y) {
   return -resultant_sign(ctx, x, y, j, qn_x_sub(ctx, ac, ca));
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): once, with the operands exchanged */
 static int plus_plus(qn_ctx *ctx, const signed_root *x, const signed_root *y) {
   qn_xint j = qn_x_sub(ctx, qn_x_mul(ctx, x->a, y->h), qn_x_mul(ctx, y->a, x->h));
   int sj = qn_x_sign(j);

@@ -258,7 +258,7 @@ quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, quoin_work 
     return QUOIN_E_ARGUMENT;
   }
   double begin, end;
-  const int doubles = end_of_range(from, -HUGE_VAL, &begin) & end_of_range(to, HUGE_VAL, &end) & !(want & QUOIN_WANT_CONTACTS);
+  const int doubles = end_of_range(from, -HUGE_VAL, &begin) & end_of_range(to, HUGE_VAL, &end) & ((want & QUOIN_WANT_CONTACTS) == 0);
   bunch b;
   size_t have = 0, alone = 0; /* have: rays in b */
   for (size_t at = 0, count, used = 0; at < n; at += count) {

@@ -152,6 +152,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
 }
 
 static quoin_spot spot_of(const qn_seen *seen) {
+  /* cppcheck-suppress internalAstError ; it cannot read compound literals after a question mark */
   return seen->surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen->t, seen->surface, seen->leaving};
 }
 

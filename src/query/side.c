@@ -97,7 +97,7 @@ static quoin_status settle(quoin_work *work, decimals *d, const char *const *tex
 }
 
 quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *points, quoin_side *out, size_t *done) {
-  size_t unused;
+  size_t unused = 0;
   done = done ? done : &unused;
   *done = 0;
   if (!scene || !work || work->scene != scene || (n != 0 && (!points || !out))) {

@@ -167,6 +167,7 @@ static int touches_at_irrational(qn_scratch *s, const nearby *n, const qn_quad *
       int inside = 1;
       for (uint32_t k = near->first; k < near->first + near->count; k++) {
         const qn_half *half = &halves[n->halves[k]];
+        /* cppcheck-suppress uninitvar ; a leaf that is near has a half-space, and its surface was entered above */
         unsigned bit = half->surface == surfaces[0] ? 0 : 1;
         inside &= (half->side > 0) == (signs >> bit & 1); /* bit set: the form is negative there */
       }

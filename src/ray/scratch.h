@@ -122,7 +122,7 @@ int qn_filter_plane(const qn_filter_line *line, const qn_filter_leaf *leaf, cons
 int qn_filter_quadric(const qn_filter_line *line, qn_filter_leaf *leaf, const qn_quadric_shadow *q, int tiny, qn_filtered *out);
 
 /* Index of the solved surface of a half-space of a leaf. */
-uint32_t qn_solve_half(qn_scratch *s, const qn_leaf *leaf, qn_filter_leaf *frame, uint32_t half);
+uint32_t qn_solve_half(qn_scratch *s, const qn_leaf *leaf, qn_filter_leaf *frame, uint32_t index);
 /* The quadratic of a solved surface (never of a QN_SOLVED_EXACTLY); null when memory was refused. */
 const qn_quad *qn_solved_quad(qn_scratch *s, uint32_t solved);
 /* A bound for a place that is not a root found here. */

@@ -189,6 +189,7 @@ uint32_t qn_solve_half(qn_scratch *s, const qn_leaf *leaf, qn_filter_leaf *frame
       s->counts.filter_sure++;
       at = add_solved(s, (size_t)f.count);
       if (at != QN_NO_SOLVED) {
+        /* cppcheck-suppress uninitStructMember ; the filters write all of it when they are certain */
         s->solved[at].sign = (int8_t)(half->side * f.sign);
         for (int i = 0; i < f.count; i++) {
           s->roots[s->solved[at].root0 + (size_t)i] = f.at[i];

@@ -104,6 +104,7 @@ static int one_conic(const fan *f, size_t plane) {
       continue;
     }
     qn_xint other[5];
+    /* cppcheck-suppress legacyUninitvar ; conic writes it */
     conic(ctx, &f->cells->germs[f->lines[f->meet[i]].germ], f->v, p, have ? other : one);
     /* out[1] = g.p is not zero: the gradient crosses the plane's and is orthogonal to v. */
     for (int j = 0; j < 5 && have; j++) {

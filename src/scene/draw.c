@@ -37,6 +37,7 @@ static void list_one(void *user, uint32_t item) {
 }
 
 /* Draws the indexed sets that meet a box. */
+/* NOLINTNEXTLINE(misc-no-recursion): as deep as QN_NORMAL_DEPTH */
 static int draw_indexed(qn_drawing *m, const qn_set_index *x, const double clip[6]) {
   if (!x->bvh.nodes) {
     for (size_t i = 0; i < x->count; i++) {
@@ -65,6 +66,7 @@ static int draw_indexed(qn_drawing *m, const qn_set_index *x, const double clip[
 /* --- a meet ----------------------------------------------------------------------------------------------------------- */
 
 /* The union of some sets, unclipped, made once: what is left to do when copies have run out. */
+/* NOLINTNEXTLINE(misc-no-recursion): as deep as QN_NORMAL_DEPTH */
 static uint32_t share(qn_drawing *m, uint32_t *slot, const uint32_t *sets, size_t count, const double clip[6]) {
   if (*slot == QN_NO_UNION) {
     size_t first = m->draft_count;
@@ -79,6 +81,7 @@ static uint32_t share(qn_drawing *m, uint32_t *slot, const uint32_t *sets, size_
   return *slot;
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): as deep as QN_NORMAL_DEPTH */
 static int multiply(qn_drawing *m, size_t first, uint32_t set) {
   size_t end = m->draft_count;
   qn_set_index x = {0};
@@ -121,6 +124,7 @@ static int multiply(qn_drawing *m, size_t first, uint32_t set) {
   return good;
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): as deep as QN_NORMAL_DEPTH */
 static int draw_meet(qn_drawing *m, uint32_t gate, const double clip[6]) {
   size_t first = m->draft_count, all = m->kid0[gate + 1] - m->kid0[gate], met = 0;
   uint32_t *sets = qn_alloc(m->mem, all * sizeof *sets);
@@ -169,6 +173,7 @@ static int draw_meet(qn_drawing *m, uint32_t gate, const double clip[6]) {
   return good && !m->status;
 }
 
+/* NOLINTNEXTLINE(misc-no-recursion): as deep as QN_NORMAL_DEPTH */
 int qn_draw(qn_drawing *m, uint32_t set, const double clip[6]) {
   double box[6];
   qn_set_box(m, set, box);

@@ -127,7 +127,7 @@ static void bound_by_body(qn_maker *m, const qn_half_form *h, qn_leaf *leaf) {
   if (s[0] <= 0 || s[1] <= 0 || s[2] > 0) {
     return;
   }
-  qn_num lo = QN_NUM_ZERO, hi = QN_NUM_ZERO, most = QN_NUM_ZERO;
+  qn_num lo = QN_NUM_ZERO, hi = QN_NUM_ZERO, most;
   int ends = slab(m, h->row[2], &lo, &hi);
   if (s[2] == 0 && l != 0) { /* g = -2 l Z - k >= 0 bounds Z on the one side, and is greatest on the other */
     qn_num vertex = qn_num_neg(ctx, qn_num_div(ctx, h->k, qn_num_mul(ctx, qn_num_from_int(ctx, 2), h->l)));

@@ -176,7 +176,7 @@ static void settle(qn_composed *c) {
   for (int i = 0; i < 12; i++) {
     const qn_ball *a = &c->map[i];
     c->shadow[i] = qn_ball_to_double(a);
-    c->tame &= is_tame(a);
+    c->tame = c->tame && is_tame(a);
     if (i % 4 != 3) {
       c->shift_only &= i % 5 == 0 ? a->err == 0 && c->shadow[i] == 1 && !(a->m[0] | a->m[1] | a->m[2] | a->m[3] << 1) : a->sign == 0;
     }
@@ -266,7 +266,7 @@ static void settle_translation(qn_maps *maps, const qn_composed *outer, qn_compo
   for (int i = 3; i < 12; i += 4) {
     c->map[i] = qn_ball_from_num(&maps->scratch, c->exact[i]);
     c->shadow[i] = qn_ball_to_double(&c->map[i]);
-    c->tame &= is_tame(&c->map[i]);
+    c->tame = c->tame && is_tame(&c->map[i]);
   }
   c->settled = 1;
 }

@@ -65,6 +65,7 @@ static void table_free(qn_near_table *t, qn_mem *mem) {
 
 static int64_t cell(double v, double width) {
   double c = v / width;
+  /* cppcheck-suppress incorrectLogicOperator ; it does not read hexadecimal exponents */
   if (!(c < 0x1p60 && c > -0x1p60)) { /* beyond, all are in one cell; differences do not overflow */
     return c < 0 ? -((int64_t)1 << 60) : (int64_t)1 << 60;
   }

@@ -26,7 +26,7 @@ static int set_face(quoin_near_list *list, const quoin_scene *scene, uint32_t su
   out->name = qn_arena_text(&list->arena, name, strlen(name));
   out->role = scene->halves[h].role;
   out->node = scene->leaves[leaf].node;
-  *side = scene->halves[h].side;
+  *side = scene->halves[h].side; /* NOLINT(bugprone-signed-char-misuse,cert-str34-c): a number, -1 or 1 */
   return out->name != NULL;
 }
 

@@ -101,7 +101,7 @@ quoin_status qn_program_build(qn_program *program, qn_mem *mem, qn_term *terms, 
     program->gates = qn_alloc(mem, room * sizeof *program->gates);
   }
   quoin_status status = program->gates ? QUOIN_OK : QUOIN_E_MEMORY;
-  if (status == QUOIN_OK) {
+  if (status == QUOIN_OK && live && place) { /* the gates are there only when both are */
     number(program, terms, count, live, place);
     if (program->gate_count == 0) {
       add_gate(program, QN_NO_GATE, count > 0 && terms[0].kind == QN_TERM_TRUE);

@@ -97,6 +97,7 @@ static cut best_cut(const bins *all, size_t n_bins) {
     for (size_t i = 1; i < n_bins; i++) {
       join(&b, &all->bounds[k][i - 1]);
       n += all->count[k][i - 1];
+      /* cppcheck-suppress uninitvar ; filled from n_bins - 1 down to 1 above */
       if (n && right_cost[i] >= 0) {
         float cost = area(&b) * (float)n + right_cost[i];
         if (cost < least) {

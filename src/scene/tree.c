@@ -76,6 +76,7 @@ static quoin_status visit_leaf(walk *w, uint32_t node, uint32_t term, int negate
       return QUOIN_E_MEMORY;
     }
     batch = &b->batches[b->batch_count++];
+    /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): capacity stands for a block */
     *batch = (qn_batch){.visit0 = b->visit_count};
     w->met = 0;
   }

@@ -83,6 +83,7 @@ static int between(double a, double t, double b) { return a < t && t < b; }
 
 /* Closes [lo, hi] round t from both sides: the nearest places with certain signs at growing distances from `near`. */
 static void close_in(curve *c, double *lo, double *hi, int sign_lo, double t, double near) {
+  /* NOLINTNEXTLINE(cert-flp30-c): a geometric walk, exact by powers of two */
   for (double d = near; t - d > *lo; d *= 4) {
     int s = sample_sign(look(c, t - d));
     if (s == sign_lo) {
@@ -93,6 +94,7 @@ static void close_in(curve *c, double *lo, double *hi, int sign_lo, double t, do
       *hi = t - d;
     }
   }
+  /* NOLINTNEXTLINE(cert-flp30-c): as above */
   for (double d = near; t + d < *hi; d *= 4) {
     int s = sample_sign(look(c, t + d));
     if (s == -sign_lo) {

@@ -89,7 +89,7 @@ double qn_superquadric_value(double e, double n, const double X[3], double *erro
   double f = pow(norm, s.q);
   /* f moves by q times the relative error of G and by |ln f| times that of q (2u); pow adds 2u, the last difference u. */
   double relative = s.q * bound / norm + (f > 0 && f < INFINITY ? 2 * QN_U * fabs(log(f)) : 0) + 2 * QN_U;
-  if (norm == 0) {
+  if (norm == 0) { /* NOLINT(bugprone-branch-clone): infinity is exact too, but comes after what may not be */
     *error = 0;
   } else if (!(relative < 0.0625)) { /* first order no longer holds */
     *error = INFINITY;

@@ -47,13 +47,13 @@ void qn_lexer_init(qn_lexer *lexer, const qn_source *source, qn_reporter *report
 void qn_lexer_free(qn_lexer *lexer);
 
 /* Reads the next token into lexer->token. When memory is refused, lexer->failed is set and the text ends. */
-void qn_lexer_next(qn_lexer *lexer);
+void qn_lexer_next(qn_lexer *lx);
 
 QN_INLINE int qn_lexer_is(const qn_lexer *lexer, char mark) {
   return lexer->token.kind == QN_T_MARK && lexer->token.mark == mark;
 }
 
 /* After `include` or `use` as the current token: passes over <path>, and reads the token behind it. 0 when there is none. */
-int qn_lexer_path(qn_lexer *lexer);
+int qn_lexer_path(qn_lexer *lx);
 
 #endif

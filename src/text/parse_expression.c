@@ -311,9 +311,9 @@ static int after_operand(qn_parser *p, size_t from) {
     reduce(p, b.rank == RANK_POWER ? RANK_POWER + 1 : b.rank, from);
     if (b.op == QN_OP_AND || b.op == QN_OP_OR) {
       emit(p, b.op, t.offset, 0);
-      push(p, W_SHORT, b.op, b.rank, t.offset, (uint32_t)p->syntax->op_count - 1);
+      push(p, W_SHORT, (int)b.op, b.rank, t.offset, (uint32_t)p->syntax->op_count - 1);
     } else {
-      push(p, W_BINARY, b.op, b.rank, t.offset, 0);
+      push(p, W_BINARY, (int)b.op, b.rank, t.offset, 0);
     }
     next(p);
     return 0;
@@ -332,11 +332,12 @@ static int after_operand(qn_parser *p, size_t from) {
   case ':':
     reduce(p, RANK_CHOICE, from);
     if (top_is(p, W_THEN)) {
-      w = *top(p);
+      qn_waiting *choice = top(p);
+      w = *choice;
       emit(p, QN_OP_JUMP, t.offset, 0);
       if (!p->failed) {
         join(p, w.a);
-        *top(p) = (qn_waiting){.kind = W_ELSE, .rank = RANK_CHOICE, .offset = w.offset, .a = (uint32_t)p->syntax->op_count - 1};
+        *choice = (qn_waiting){.kind = W_ELSE, .rank = RANK_CHOICE, .offset = w.offset, .a = (uint32_t)p->syntax->op_count - 1};
       }
       next(p);
       return 0;

@@ -17,11 +17,13 @@ BODIES_OF(sse2)
 BODIES_OF(avx2)
 BODIES_OF(avx512)
 
+/* NOLINTBEGIN(bugprone-macro-parentheses): a part of names */
 #define ROW(isa, lanes)                                                                                                                  \
   {                                                                                                                                      \
     .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .spans = qn_spans_##isa,             \
     .spans_few = qn_spans_few_##isa, .points = qn_points_##isa, .spots = qn_spots_##isa, .round = qn_round_##isa, .round_one = qn_round_one_##isa                          \
   }
+/* NOLINTEND(bugprone-macro-parentheses) */
 /* From the widest to the one that always runs. */
 static const qn_wide bodies[] = {ROW(avx512, 8), ROW(avx2, 4), ROW(sse2, 2)};
 

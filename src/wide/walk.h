@@ -79,7 +79,7 @@ static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apa
         *equal |= 1u << i;
         if (!((a | b) & QN_STARTS_ON) && (a >> 32 & QN_LEAF_BITS) != (b >> 32 & QN_LEAF_BITS)) {
           uint8_t *n = &w->ties[g * QN_W + i];
-          *n += *n <= TIES;
+          *n = (uint8_t)(*n + (*n <= TIES));
           w->tie[*n - 1 < TIES ? *n - 1 : 0][g * QN_W + i] = t[i];
         }
       } else {
