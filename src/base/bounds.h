@@ -160,6 +160,19 @@
 #define QN_ROUND_LARGEST 0x1p+42
 #define QN_ROUND_WIDEST 0x1p+400
 
+/* Rounding places on a ball (wide/round_ball.h). Legend: rho the power of two with rho <= sqrt(r2) < 2 rho, p = |y|^2 - r^2, y = o - c + t d, S = y . d, d_most
+   as in a packet. Where |t| + e <= QN_BALL_FAR rho / d_most and no coordinate of the centre exceeds QN_BALL_FAR sqrt(r2), and |p^| <= rho^2,
+     |p^ - p| <= QN_BALL_EVAL rho^2 + QN_BALL_OFF rho off + u |p^|,  |S^ - S| <= QN_BALL_SLOPE rho d_most
+   QN_BALL_GRID rho: added and taken away, rounds to multiples of 2^-24 rho; QN_BALL_GRID_2 rho^2: to the squares of such. Rests are 0 or at least QN_BALL_LEAST, so
+   that they do not underflow as floats. */
+#define QN_BALL_EVAL 0x1p-70
+#define QN_BALL_OFF 0x1p-20
+#define QN_BALL_SLOPE 0x1p-48
+#define QN_BALL_FAR 0x1p+24
+#define QN_BALL_GRID 0x1.8p+28
+#define QN_BALL_GRID_2 24.0
+#define QN_BALL_LEAST 0x1p-100
+
 /* A point against a leaf's shadow (query/point.c). Legend as above with W the point's weight (|true y - y| <= u W, |y| <= W);
    Omega' = |X^| + QN_POINT_MAP_E Omega. Wherever every Omega and every |s|, |l| is at most QN_POINT_LARGEST,
      |X^ - X| <= QN_POINT_MAP_E Omega + QN_POINT_TINY

@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 /* The largest |row . (x - pivot, 1)| over the leaf's box. */
@@ -115,7 +116,7 @@ static int is_plain(const quoin_scene *scene, const qn_leaf *l) {
     if (h->kind == QN_PLANE) {
       numbers = scene->planes[h->shadow].n, count = 4;
     } else {
-      numbers = scene->quadrics[h->shadow].row[0], count = sizeof(qn_quadric_shadow) / sizeof(double);
+      numbers = scene->quadrics[h->shadow].row[0], count = offsetof(qn_quadric_shadow, k_rest) / sizeof(double);
     }
     for (size_t k = 0; k < count; k++) {
       double v = fabs(numbers[k]);
@@ -150,21 +151,32 @@ static size_t lines_of(qn_piece_kind kind) {
   return 1;
 }
 
+static void write_sphere(const qn_leaf *l, const qn_quadric_shadow *q, uint32_t leaf, uint32_t surface, void *line) {
+  const double scale = q->row[0][0];
+  qn_piece_sphere s = {.head = {QN_PIECE_SPHERE, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .r2_rest = (float)-q->k_rest, .surface = surface};
+  double off = 0, far = 0;
+  int fine = s.r2 == -q->k && isfinite(q->k_rest) && (q->k_rest == 0 || fabs(q->k_rest) > QN_BALL_LEAST);
+  memcpy(s.centre, l->pivot, sizeof s.centre);
+  for (int i = 0; i < 3; i++) {
+    const double rest = -q->row[i][3] / scale, size = fabs(rest);
+    off = size > off ? size : off, far = fabs(s.centre[i]) > far ? fabs(s.centre[i]) : far;
+    s.rest[i] = (float)rest;
+    fine = fine && (rest == 0 || size > QN_BALL_LEAST);
+  }
+  s.off = qn_round_up(off * QN_WIDE_SLACK);
+  if (!fine || far > QN_BALL_FAR * sqrt(s.r2)) {
+    s.r2_rest = INFINITY;
+  }
+  memcpy(line, &s, sizeof s);
+}
+
 static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind kind, void *line) {
   const qn_leaf *l = &scene->leaves[leaf];
   switch (kind) {
   case QN_PIECE_SPHERE: {
     const qn_half *h = &scene->halves[l->half0];
     const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
-    double scale = q->row[0][0];
-    qn_piece_sphere s = {.head = {kind, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .surface = h->surface};
-    s.radius = sqrt(s.r2);
-    memcpy(s.centre, l->pivot, sizeof s.centre);
-    for (int i = 0; i < 3; i++) {
-      double off = fabs(q->row[i][3] / scale) * QN_WIDE_SLACK;
-      s.off = off > s.off ? off : s.off;
-    }
-    memcpy(line, &s, sizeof s);
+    write_sphere(l, q, leaf, h->surface, line);
     return;
   }
   case QN_PIECE_BOX: {

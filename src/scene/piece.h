@@ -25,10 +25,11 @@ typedef struct qn_piece_sphere {
   qn_piece_head head;
   double centre[3]; /* the pivot: the true centre is within `off` of it, axis by axis */
   double r2;        /* relative error 8u at most, the squares' shares included */
-  double off;
+  /* For rounding (wide/round_ball.h): the true centre is centre + rest, the true r^2 is r2 + r2_rest, each rest within 2^-23 of itself.
+     r2_rest infinite: nothing of the kind is known, or the centre is QN_BALL_FAR radii from 0. */
+  float rest[3], r2_rest;
+  float off;
   uint32_t surface;
-  uint32_t unused;
-  double radius; /* sqrt(r2) */
 } qn_piece_sphere;
 
 typedef struct qn_piece_box {

@@ -5,6 +5,7 @@
    to t + r, rounded outward. */
 #include "scene/compile.h"
 
+#include "number/dd.h"
 #include "shape/prim.h"
 
 #include <math.h>
@@ -22,11 +23,13 @@ int qn_leaf_quick(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_result *res
   }
   qn_num r = m->model->numbers[n->number0];
   qn_quadric_shadow q = {.s = {1, 1, 1}};
-  double size, unused, square;
-  if (r.kind != QN_NUM_SMALL || r.u.m <= 0 || !qn_num_quick_pair(r, &size, &unused) || !usual_size(size) || !qn_num_quick_square(r, &square)) {
+  double size, rest_of_size, square;
+  if (r.kind != QN_NUM_SMALL || r.u.m <= 0 || !qn_num_quick_pair(r, &size, &rest_of_size) || !usual_size(size) || !qn_num_quick_square(r, &square)) {
     return 0;
   }
   q.k = -square;
+  const qn_dd exact = qn_dd_two_prod(size, size); /* r^2 = (size + rest)^2; the two nearest doubles differ exactly */
+  q.k_rest = -((exact.hi - square) + (exact.lo + 2 * size * rest_of_size));
   for (int i = 0; i < 3; i++) {
     qn_num t = map->exact[4 * i + 3];
     double rest;

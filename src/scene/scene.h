@@ -15,7 +15,8 @@
    stored as that size with its sign: filters take sizes outside [2^-100, 2^100] to the exact tier anyway. Coordinates are relative
    to the leaf's pivot: y = x - pivot, where pivot is exact as stored. ---------------------------------------------------- */
 typedef struct qn_plane_shadow { double n[3], d; } qn_plane_shadow;              /* q = n . y + d */
-typedef struct qn_quadric_shadow { double row[3][4], s[3], l, k; } qn_quadric_shadow; /* X_i = row_i . (y, 1); q = sum s X^2 + 2 l X_2 + k */
+/* X_i = row_i . (y, 1); q = sum s X^2 + 2 l X_2 + k. Of a sphere that is only shifted: k + k_rest within 2^-100 k; of others k_rest is infinite. */
+typedef struct qn_quadric_shadow { double row[3][4], s[3], l, k, k_rest; } qn_quadric_shadow;
 /* A superquadric uses a qn_quadric_shadow with s[0] = e, s[1] = n. */
 
 /* One half-space of a leaf, q <= 0. q is `side` times a positive multiple of its surface's exact form. */

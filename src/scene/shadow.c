@@ -315,6 +315,18 @@ int qn_batch_room(qn_maker *m) {
   return qn_grow(m->mem, &b->halves, &b->half_capacity, b->half_count + 1) && qn_grow(m->mem, &b->keys, &b->key_capacity, b->half_count + 1);
 }
 
+/* X^2 + Y^2 + Z^2 + k of rows that are the identity but for the shift, exactly. */
+static int is_shifted_sphere(const qn_maker *m, const qn_half_form *h) {
+  int same = h->kind == QN_QUADRIC_BODY && m->maps.stack[m->maps.count - 1].shift_only && qn_num_is_zero(h->l);
+  for (int i = 0; same && i < 3; i++) {
+    same = qn_num_equal(h->s[i], QN_NUM_ONE);
+    for (int j = 0; same && j < 3; j++) {
+      same = qn_num_equal(h->row[i][j], i == j ? QN_NUM_ONE : QN_NUM_ZERO);
+    }
+  }
+  return same;
+}
+
 static quoin_status add_half(qn_maker *m, const qn_half_form *h, double rows[3][4], qn_leaf *leaf) {
   qn_batch *b = m->batch;
   if (!qn_batch_room(m)) {
@@ -343,6 +355,7 @@ static quoin_status add_half(qn_maker *m, const qn_half_form *h, double rows[3][
     }
     q->l = shadow_of(h->l);
     q->k = shadow_of(h->k);
+    q->k_rest = is_shifted_sphere(m, h) ? qn_num_to_double(qn_num_sub(&m->maps.scratch, h->k, qn_num_from_double(&m->maps.scratch, q->k))) : INFINITY;
   }
   b->keys[b->half_count++] = key;
   return QUOIN_OK;

@@ -64,7 +64,7 @@ typedef struct qn_wide_counts { uint64_t nodes, leaves, packets, budget; } qn_wi
 /* The first boundary at or after `from` and not after `to`. */
 typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 
-/* The doubles nearest to the hits of `lanes` (all of them found ones), into t (aligned to 64); the lanes for which it is certain that
+/* The doubles nearest to the hits of `lanes` (all of them found ones, in a packet that has been through its body), into t (aligned to 64); the lanes for which it is certain that
    they are. The other lanes' t is arbitrary: they go through qn_place_round. *made is increased by the exact forms made. */
 typedef uint64_t (*qn_round_fn)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
                                 uint64_t *made);

@@ -1,6 +1,7 @@
 /* The doubles nearest to the hits of a packet, compiled once for each instruction set. Neighbouring lanes mostly hit one surface, whose
    numbers are then the same in all lanes; a group of two surfaces is taken twice, and lanes of yet other surfaces are gathered by the
    kinds of these. Each kind has a body of its own, with the terms that it has. */
+#include "wide/round_ball.h"
 #include "wide/round_run.h"
 
 enum { GROUPS = QN_LANES / QN_W };
@@ -61,16 +62,61 @@ static uint64_t round_gathered(const gathered lists[QN_ROUNDING_KINDS], const qn
   return p->tile == QN_TILE_PAIRS ? gathered_of_kinds(1, lists, p, hits, t) : gathered_of_kinds(0, lists, p, hits, t);
 }
 
-/* --- a packet -------------------------------------------------------------------------------------------------------- */
+/* --- lanes on spheres ------------------------------------------------------------------------------------------------ */
 
-/* The lanes of group g, of those in `bits`, that are on this surface. */
-QN_INLINE unsigned lanes_on(const uint32_t *surfaces, uint32_t surface, unsigned bits) {
+/* The lanes of a group, of those in `bits`, whose surface, or leaf, is this one. */
+QN_INLINE unsigned lanes_on(const uint32_t *names, uint32_t name, unsigned bits) {
   unsigned on = 0;
   for (unsigned i = 0; i < QN_W; i++) {
-    on |= (unsigned)(surfaces[i] == surface) << i;
+    on |= (unsigned)(names[i] == name) << i;
   }
   return on & bits;
 }
+
+static unsigned round_group_of_balls(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, unsigned at, unsigned in, double *t) {
+  const qn_piece_sphere *of[QN_W], *some = NULL;
+  unsigned balls = 0;
+  for (unsigned m = in; m; m &= m - 1) {
+    const unsigned i = qn_trailing_zeros(m);
+    of[i] = sphere_of_lane(scene, hits, at + i);
+    some = of[i] ? of[i] : some, balls |= (unsigned)(of[i] != NULL) << i;
+  }
+  if (!balls) {
+    return 0;
+  }
+  for (unsigned i = 0; i < QN_W; i++) {
+    of[i] = balls >> i & 1 ? of[i] : some;
+  }
+  const ball b = ball_of_each(packet, of);
+  return ball_round_lanes(packet, hits, &b, at, t) & balls;
+}
+
+static uint64_t round_balls(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double *t) {
+  const qn_piece_sphere *last = NULL;
+  uint32_t leaf = UINT32_MAX;
+  uint64_t sure = 0;
+  ball b;
+  for (uint64_t m = lanes; m;) {
+    const unsigned first = qn_trailing_zeros(m), at = first / QN_W * QN_W, in = (unsigned)(m >> at) & QN_ALL_BITS;
+    m &= ~((uint64_t)QN_ALL_BITS << at);
+    unsigned on;
+    if (lanes_on(hits->leaf + at, hits->leaf[first], in) != in) {
+      on = round_group_of_balls(scene, packet, hits, at, in, t);
+    } else {
+      if (hits->leaf[first] != leaf) {
+        leaf = hits->leaf[first];
+        if ((last = sphere_of_lane(scene, hits, first)) != NULL) {
+          b = ball_of_one(packet, last);
+        }
+      }
+      on = last ? ball_round_lanes(packet, hits, &b, at, t) & in : 0;
+    }
+    sure |= (uint64_t)on << at;
+  }
+  return sure;
+}
+
+/* --- a packet -------------------------------------------------------------------------------------------------------- */
 
 /* A group's second surface. */
 typedef struct second_surface {
@@ -79,10 +125,8 @@ typedef struct second_surface {
   unsigned bits;
 } second_surface;
 
-uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
-                             double t[QN_LANES], uint64_t *made);
-uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
-                             double t[QN_LANES], uint64_t *made) {
+static uint64_t round_by_surfaces(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES],
+                                  uint64_t *made) {
   uint64_t sure = 0, first_lanes = 0;
   const qn_rounding *shared[GROUPS + 1] = {NULL};
   second_surface seconds[GROUPS];
@@ -143,4 +187,21 @@ uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *p
     }
   }
   return mixed ? sure | round_gathered(lists, packet, hits, t) : sure;
+}
+
+uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
+                             double t[QN_LANES], uint64_t *made);
+uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
+                             double t[QN_LANES], uint64_t *made) {
+  const uint64_t balls = packet->tile != QN_TILE_PAIRS ? round_balls(scene, packet, hits, lanes, t) : 0;
+  if (balls == lanes || !balls) {
+    return balls ? balls : round_by_surfaces(scene, packet, hits, lanes, t, made);
+  }
+  _Alignas(64) double own[QN_LANES];
+  const uint64_t others = round_by_surfaces(scene, packet, hits, lanes & ~balls, own, made);
+  for (uint64_t m = others; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    t[lane] = own[lane];
+  }
+  return balls | others;
 }

@@ -71,7 +71,7 @@ QN_INLINE void sphere_prepare(const packet_facts *f, const qn_piece_sphere *s, s
     Y += y;
     H += y * f->p->dabs[i];
   }
-  const double r = s->radius, d = f->p->d_most, idd = f->p->idd_most;
+  const double r = sqrt(s->r2), d = f->p->d_most, idd = f->p->idd_most;
   /* | |m^| - |m| | <= delta with m = y - (y.d / d.d) d from the true centre; lanes with |m^| > 2r are sure misses while delta < r/8. */
   double delta = 4 * (QN_WIDE_ROUND * QN_U * (Y + H * d * idd) + s->off) + QN_WIDE_TINY;
   double ed = delta < r / 8 ? 8 * r * delta + 3 * delta * delta + QN_WIDE_ROUND * QN_U * 5 * s->r2 : INFINITY;

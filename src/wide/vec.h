@@ -10,7 +10,12 @@
 #include "base/attrs.h"
 
 #include <immintrin.h>
+#include <math.h>
 #include <stdint.h>
+
+#if (defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)) && !defined(QN_FUSED)
+#define QN_FUSED /* a fused operation rounds once */
+#endif
 
 #if defined(QN_SCALAR) /* one lane: a body for a single ray, with the same formulas */
 #include <string.h>
@@ -31,7 +36,7 @@ QN_INLINE vd vsub(vd a, vd b) { return a - b; }
 QN_INLINE vd vmul(vd a, vd b) { return a * b; }
 QN_INLINE vd vdiv(vd a, vd b) { return a / b; }
 QN_INLINE vd vsqrt(vd a) { return __builtin_sqrt(a); }
-#if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
+#if defined(QN_FUSED)
 QN_INLINE vd vfma(vd a, vd b, vd c) { return __builtin_fma(a, b, c); }
 QN_INLINE vd vfms(vd a, vd b, vd c) { return __builtin_fma(a, b, -c); }
 #else
@@ -52,6 +57,12 @@ QN_INLINE unsigned vbits(vm m) { return m; }
 QN_INLINE unsigned vsigns(vd a) { return (unsigned)(vword(a) >> 63); }
 QN_INLINE unsigned vsecond(vd a) { return (unsigned)(vword(a) >> 62 & 1); }
 QN_INLINE vm vmask(unsigned bits) { return bits; }
+QN_INLINE vd vpower(vd a) { /* the power of two at or below a, normal and positive */
+  uint64_t w = vword(a) & UINT64_C(0x7ff0000000000000);
+  memcpy(&a, &w, sizeof a);
+  return a;
+}
+QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) { return p[0][i]; }
 
 #elif defined(QN_ISA_AVX512)
 #define QN_W 8
@@ -62,6 +73,10 @@ QN_INLINE vd vload(const double *p) { return _mm512_load_pd(p); }
 QN_INLINE vd vcollect(const double *const p[QN_W], int i) { /* lane j is p[j][i] */
   return _mm512_set_pd(p[7][i], p[6][i], p[5][i], p[4][i], p[3][i], p[2][i], p[1][i], p[0][i]);
 }
+QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) {
+  return _mm512_cvtps_pd(_mm256_set_ps(p[7][i], p[6][i], p[5][i], p[4][i], p[3][i], p[2][i], p[1][i], p[0][i]));
+}
+QN_INLINE vd vpower(vd a) { return _mm512_and_pd(a, _mm512_set1_pd(INFINITY)); } /* the power of two at or below a, normal and positive */
 QN_INLINE void vstore(double *p, vd a) { _mm512_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm512_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm512_sub_pd(a, b); }
@@ -101,6 +116,8 @@ typedef __m256d vm;
 QN_INLINE vd vset(double a) { return _mm256_set1_pd(a); }
 QN_INLINE vd vload(const double *p) { return _mm256_load_pd(p); }
 QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm256_set_pd(p[3][i], p[2][i], p[1][i], p[0][i]); }
+QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) { return _mm256_cvtps_pd(_mm_set_ps(p[3][i], p[2][i], p[1][i], p[0][i])); }
+QN_INLINE vd vpower(vd a) { return _mm256_and_pd(a, _mm256_set1_pd(INFINITY)); }
 QN_INLINE vd vfour(double a, double b, double c, double d) { return _mm256_set_pd(d, c, b, a); }
 QN_INLINE void vstore(double *p, vd a) { _mm256_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm256_add_pd(a, b); }
@@ -141,6 +158,8 @@ typedef __m128d vm;
 QN_INLINE vd vset(double a) { return _mm_set1_pd(a); }
 QN_INLINE vd vload(const double *p) { return _mm_load_pd(p); }
 QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm_set_pd(p[1][i], p[0][i]); }
+QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) { return _mm_set_pd(p[1][i], p[0][i]); }
+QN_INLINE vd vpower(vd a) { return _mm_and_pd(a, _mm_set1_pd(INFINITY)); }
 QN_INLINE void vstore(double *p, vd a) { _mm_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm_sub_pd(a, b); }
@@ -192,7 +211,7 @@ QN_INLINE vdd vtwo_difference(vd a, vd b) {
 /* Exact barring over- and underflow. */
 QN_INLINE vdd vtwo_product(vd a, vd b) {
   vd p = vmul(a, b);
-#if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
+#if defined(QN_FUSED)
   return (vdd){p, vfms(a, b, p)};
 #else
   const vd split = vset(134217729.0); /* 2^27 + 1 */

@@ -68,6 +68,8 @@ static void check_row(qn_ctx *ctx, const double *row, double b, const qn_num exa
   check(ctx, b, qn_num_dot(ctx, 4, exact, point), rounded);
 }
 
+static unsigned rests; /* of shifted spheres, looked at */
+
 static void check_shadows(const quoin_scene *s) {
   qn_ctx ctx;
   qn_ctx_init(&ctx, s->mem);
@@ -92,6 +94,11 @@ static void check_shadows(const quoin_scene *s) {
       }
       check(&ctx, q->l, forms[h].l, qn_num_is_rounded(forms[h].l));
       check(&ctx, q->k, forms[h].k, qn_num_is_rounded(forms[h].k));
+      if (isfinite(q->k_rest)) { /* k + k_rest within 2^-100 k */
+        const qn_num both = qn_num_add(&ctx, qn_num_from_double(&ctx, q->k), qn_num_from_double(&ctx, q->k_rest));
+        assert_true(fabs(qn_num_to_double(qn_num_sub(&ctx, both, forms[h].k))) <= fabs(q->k) * 0x1p-100);
+        rests++;
+      }
     }
     assert_int_equal(ctx.failed, QUOIN_OK);
   }
@@ -349,6 +356,22 @@ static void deep_products(void **unused) {
   quoin_scene_free(s);
 }
 
+/* What spheres' radii lack of doubles: by the short way, placed, under long and irrational numbers; none is claimed where a map is more than a shift, by however little. */
+static void rests_of_spheres(void **unused) {
+  (void)unused;
+  rests = 0;
+  quoin_scene *s = scene_of("translate([0.1,0.2,0.3]) sphere(0.1); sphere(1/3); translate([1/7,0,0]) sphere(0.123456789012345678901234567890); sphere(sqrt(2));"
+                            "translate([sqrt(3),0,1]) sphere(cos(20)); sphere(r = 0.7, base = [0.1,0.2,0.3]); sphere(3); ellipsoid(r = [0.3,0.3,0.3]);");
+  check_shadows(s);
+  assert_int_equal(rests, 8);
+  assert_true(s->quadrics[6].k_rest == 0 && s->quadrics[0].k_rest != 0);
+  quoin_scene_free(s);
+  s = scene_of("scale(1 + 1e-30) sphere(0.1); rotate([0,0,1e-30]) sphere(0.1); scale([1,1,1 + 1e-30]) translate([5,0,0]) sphere(0.1);");
+  check_shadows(s);
+  assert_int_equal(rests, 8);
+  quoin_scene_free(s);
+}
+
 /* --- boxes ------------------------------------------------------------------------------------------------------------ */
 
 /* Exact extents of a cube [0, size] under the leaf's exact map: the corners of its three slabs. From the forms: |r_i . x|
@@ -468,7 +491,7 @@ static void boxes_without_bound(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(QN_SHADOW_random_models), cmocka_unit_test(hard_numbers), cmocka_unit_test(sizes_beyond_doubles),
-    cmocka_unit_test(deep_products), cmocka_unit_test(boxes_hold_corners), cmocka_unit_test(boxes_of_aligned_solids_are_exact),
+    cmocka_unit_test(deep_products), cmocka_unit_test(rests_of_spheres), cmocka_unit_test(boxes_hold_corners), cmocka_unit_test(boxes_of_aligned_solids_are_exact),
     cmocka_unit_test(boxes_without_bound),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

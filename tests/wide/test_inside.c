@@ -57,7 +57,7 @@ static void balls(void **state) {
   mpq_inits(e, x, y, sum, NULL);
   for (int round = 0; round < 200000; round++) {
     int range = below(3) ? 4 : 40;
-    qn_piece_sphere s = {.off = below(2) ? 0 : fabs(part(range)) * 0x1p-53};
+    qn_piece_sphere s = {.off = below(2) ? 0 : (float)(fabs(part(range)) * 0x1p-53)};
     double at[3];
     qn_wide_point p = {at, 0};
     double square = 0;

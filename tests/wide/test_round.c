@@ -2,6 +2,7 @@
    far, rational and rotated by irrational angles, rays that graze, roots in the middle between doubles, numbers out of range. */
 #include "quoin/quoin.h"
 #include "number/quad.h"
+#include "base/bounds.h"
 #include "scene/rounding.h"
 #include "wide/packet.h"
 
@@ -128,6 +129,11 @@ static void flush(stage *st, batch *b, census *c) {
       b->packet.o[j][i] = b->packet.d[j][i] = 1;
     }
   }
+  b->packet.d_most = sqrt(3.0);
+  for (unsigned i = 0; i < b->count; i++) {
+    const double size = hypot(hypot(b->packet.d[0][i], b->packet.d[1][i]), b->packet.d[2][i]) * QN_WIDE_SLACK;
+    b->packet.d_most = size > 0x1p-100 && size < 0x1p+100 ? fmax(b->packet.d_most, size) : INFINITY; /* no body goes on with others */
+  }
   c->lanes += (unsigned)__builtin_popcountll(lanes);
   for (size_t k = 0; k < body_count; k++) {
     _Alignas(64) double t[QN_LANES];
@@ -175,7 +181,7 @@ static int add(stage *st, batch *b, census *c, uint32_t surface, const double o[
       b->hits.t[i] = other;
       b->hits.error[i] = fabs(other - r) + (fabs(r) + fabs(other)) * 0x1p-50;
     }
-    b->hits.surface[i] = surface;
+    b->hits.surface[i] = surface, b->hits.leaf[i] = st->scene->surfaces[surface].leaf;
     for (int j = 0; j < 3; j++) {
       b->packet.o[j][i] = o[j], b->packet.d[j][i] = d[j];
     }
@@ -236,6 +242,12 @@ static void test_shapes(void **state) {
           d[j] = axis < 0 ? to - o[j] : j == axis ? 1 : 0;
           o[j] = axis < 0 || j == axis ? o[j] : to;
         }
+        if (n / 500 % 2) { /* directions of about one length, as packets have them: bounds for the longest are good for all */
+          const double size = fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2]));
+          for (int j = 0; j < 3 && size > 0; j++) {
+            d[j] = ldexp(d[j], -ilogb(size));
+          }
+        }
         if (d[0] != 0 || d[1] != 0 || d[2] != 0) {
           add(&st, &b, &c, surface, o, d, set->bits);
         }
@@ -249,6 +261,31 @@ static void test_shapes(void **state) {
     }
     stage_close(&st);
   }
+}
+
+/* --- spheres whose numbers are no doubles: what these lack decides --------------------------------------------------- */
+
+static void test_balls(void **state) {
+  (void)state;
+  static stage st;
+  static batch b;
+  stage_open(&st, "translate([1000.1, 0.3, -700.7]) sphere(0.3); translate([0.1, 2000.2, 3.3]) sphere(0.7); translate([-500.1, 33.3, 0.7]) sphere(1/3);");
+  census c = {0};
+  b.count = 0;
+  for (int n = 0; n < 6000; n++) {
+    const uint32_t surface = (uint32_t)(n / 3 % 3);
+    const double *pivot = st.scene->leaves[st.scene->surfaces[surface].leaf].pivot;
+    double d[3], o[3];
+    for (int j = 0; j < 3; j++) {
+      d[j] = 0.6 * part() + (j == n % 3 ? 1 : 0);
+      o[j] = pivot[j] + 0.15 * part() - 3 * d[j];
+    }
+    add(&st, &b, &c, surface, o, d, 45);
+  }
+  flush(&st, &b, &c);
+  print_message("balls: sure of %u of %u\n", c.sure[0], c.lanes);
+  assert_true(c.lanes > 5000 && c.sure[0] > 0.999 * c.lanes);
+  stage_close(&st);
 }
 
 /* --- rays that graze: roots next to each other, with enclosures that hold both -------------------------------------- */
@@ -348,7 +385,7 @@ static void give(void *user, void *block, size_t size) {
 static void test_memory(void **state) {
   (void)state;
   const quoin_allocator allocator = {take, retake, give, NULL, 0};
-  const char *text = "sphere(2);";
+  const char *text = "scale([1, 1, 2]) sphere(2);"; /* its numbers are not in its piece */
   quoin_model *m;
   quoin_scene *scene;
   static batch b;
@@ -356,7 +393,7 @@ static void test_memory(void **state) {
   assert_int_equal(quoin_model_read_text(m, QUOIN_ROOT, "t", text, strlen(text), NULL), QUOIN_OK);
   assert_int_equal(quoin_scene_compile(m, NULL, &scene), QUOIN_OK);
   for (unsigned i = 0; i < QN_LANES; i++) {
-    b.hits.t[i] = 3, b.hits.error[i] = 0x1p-40, b.hits.surface[i] = 0;
+    b.hits.t[i] = 3, b.hits.error[i] = 0x1p-40, b.hits.surface[i] = b.hits.leaf[i] = 0;
     b.packet.o[0][i] = -5, b.packet.o[1][i] = b.packet.o[2][i] = 0;
     b.packet.d[0][i] = 1, b.packet.d[1][i] = b.packet.d[2][i] = 0;
   }
@@ -373,7 +410,7 @@ static void test_memory(void **state) {
 
 int main(void) {
   find_bodies();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes), cmocka_unit_test(test_grazing), cmocka_unit_test(test_middles),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes), cmocka_unit_test(test_balls), cmocka_unit_test(test_grazing), cmocka_unit_test(test_middles),
                                      cmocka_unit_test(test_range), cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -527,7 +527,7 @@ static void spheres(void **state) {
     if (!facts_of(&p)) {
       continue;
     }
-    qn_piece_sphere stored = {.head = {QN_PIECE_SPHERE, 3}, .centre = {p.pivot[0], p.pivot[1], p.pivot[2]}, .r2 = r * r, .off = off, .surface = 7, .radius = sqrt(r * r)};
+    qn_piece_sphere stored = {.head = {QN_PIECE_SPHERE, 3}, .centre = {p.pivot[0], p.pivot[1], p.pivot[2]}, .r2 = r * r, .off = qn_round_up(off), .surface = 7};
     sphere_constants k;
     sphere_prepare(&state_of_walk.f, &stored, &k);
     half_count = 1;
@@ -632,7 +632,6 @@ static void planes(void **state) {
       double size = 0.5 * (scene.max[j] - scene.min[j]) * 0.9;
       stored.r2 = j == 0 ? size * size : fmin(stored.r2, size * size);
     }
-    stored.radius = sqrt(stored.r2);
     sphere_prepare(&state_of_walk.f, &stored, &ball);
     half_count = 0;
     for (int n = 0; n < count; n++) {
