@@ -72,7 +72,7 @@ static quoin_status describe(quoin_work *work, const quoin_ray *ray, double t, u
   return QUOIN_OK;
 }
 
-static int is_ray(const quoin_ray *ray) {
+int qn_is_ray(const quoin_ray *ray) {
   double all = 0, any = 0;
   for (int i = 0; i < 3; i++) {
     all += ray->o[i] * 0 + ray->d[i] * 0;
@@ -91,7 +91,7 @@ quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t
   for (size_t at = 0; at < n; at += QN_LANES) {
     size_t count = n - at < QN_LANES ? n - at : QN_LANES;
     for (size_t i = at; i < at + count; i++) {
-      if (!is_ray(&rays[i])) {
+      if (!qn_is_ray(&rays[i])) {
         return QUOIN_E_ARGUMENT;
       }
     }
@@ -126,7 +126,7 @@ static quoin_status are_rays(const quoin_scene *scene, const quoin_work *work, s
     return QUOIN_E_ARGUMENT;
   }
   for (size_t i = 0; i < n; i++) {
-    if (!is_ray(&rays[i])) {
+    if (!qn_is_ray(&rays[i])) {
       return QUOIN_E_ARGUMENT;
     }
   }
@@ -141,7 +141,10 @@ quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_
 enum { RUN = 4096 }; /* rays between two questions whether to stop */
 
 quoin_status quoin_rays_blocked(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, const quoin_progress *progress, uint8_t *blocked) {
-  quoin_status status = are_rays(scene, work, n, rays, blocked);
+  quoin_status status = are_rays(scene, work, 0, rays, blocked);
+  if (n != 0 && (!rays || !blocked)) {
+    return QUOIN_E_ARGUMENT;
+  }
   for (size_t at = 0; at < n && status == QUOIN_OK; at += RUN) {
     if (progress && progress->report && progress->report(progress->user, (double)at / (double)n)) {
       return QUOIN_E_CANCELLED;

@@ -29,8 +29,13 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
 /* The first boundaries as the public call gives them; runs of 64 that go the same way do best as 8 by 8 tiles, row after row. want: QN_LOOK_T or 0. */
 quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out);
 
-/* Whether each ray is inside the solid anywhere in its range: blocked[i] is 1 or 0. */
+/* Finite, with a direction and a range (hit.c). */
+int qn_is_ray(const quoin_ray *ray);
+
+/* Whether each ray is inside the solid anywhere in its range: blocked[i] is 1 or 0 (blocked.c). QUOIN_E_ARGUMENT where one of them is no ray. */
 quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked);
+/* The same for rays that are known to be such, of which only neighbours in the array share packets. */
+quoin_status qn_look_blocked_in_order(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked);
 
 /* One ray of them by the woven path: for a lane that a packet with `any` (wide/packet.h) has given up. */
 quoin_status qn_look_woven_blocked(quoin_work *work, const quoin_ray *ray, uint8_t *blocked);

@@ -346,7 +346,7 @@ quoin_status qn_look_woven_blocked(quoin_work *work, const quoin_ray *ray, uint8
   return status == QUOIN_OK ? qn_scratch_ctx(work->scratch)->failed : status;
 }
 
-quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked) {
+quoin_status qn_look_blocked_in_order(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked) {
   qn_packet packet;
   quoin_status status = QUOIN_OK;
   batch b = {.work = work, .rays = rays, .n = n};

@@ -25,10 +25,12 @@ QN_INLINE void extremes(const double *v, double *low, double *high) {
 
 static void see_origins(qn_packet *p) {
   for (int i = 0; i < 3; i++) {
+    const double off = p->tile == QN_TILE_MOVED ? 2 * QN_U * p->moved[i] : 0; /* a moved start may be small beside what its rounding is a share of */
     p->low[i] = INFINITY, p->high[i] = -INFINITY;
     for (int k = 0; k < SUBS; k++) {
       double low, high;
       extremes(p->o[i] + k * SUB_LANES, &low, &high);
+      low -= off, high += off;
       p->omin[i][k] = down(low), p->omax[i][k] = up(high);
       p->low[i] = least(p->low[i], low), p->high[i] = most(p->high[i], high);
     }
@@ -166,7 +168,7 @@ static int facts(walk *w, qn_packet *p) {
     see_directions(p);
   }
   for (int i = 0; i < 3; i++) {
-    f->share[i] = p->tile == QN_TILE_PAIRS ? most(fabs(p->low[i]), fabs(p->high[i])) : 0;
+    f->share[i] = p->tile == QN_TILE_PAIRS ? most(fabs(p->low[i]), fabs(p->high[i])) : p->tile == QN_TILE_MOVED ? p->moved[i] : 0;
   }
   if (!p->kept_ranges) {
     see_ranges(p);

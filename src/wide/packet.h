@@ -15,6 +15,9 @@ enum { QN_MANY_LANES, QN_FEW_LANES, QN_ONE_LANE }; /* how many lanes of a packet
 
 QN_INLINE unsigned qn_lane_column(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
 QN_INLINE unsigned qn_lane_row(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
+QN_INLINE unsigned qn_lane_of(unsigned column, unsigned row) {
+  return (column & 1) | (row & 1) << 1 | (column & 2) << 1 | (row & 2) << 2 | (column & 4) << 2 | (row & 4) << 3;
+}
 
 typedef struct qn_ends { _Alignas(64) double t[QN_LANES], p[QN_LANES]; } qn_ends; /* places and payloads (walk.h) */
 
@@ -31,8 +34,10 @@ typedef struct qn_packet {
   int few; /* QN_FEW_LANES, QN_ONE_LANE: only the first ones are there */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
      body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. TILE_PAIRS: so they are, and are rounded; the lines are o + olow and
-     d + dlow, to 2^-104 of each number, and |olow| is at most u |o|, |dlow| at most u |d|. */
-  enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS, QN_TILE_PAIRS } tile;
+     d + dlow, to 2^-104 of each number, and |olow| is at most u |o|, |dlow| at most u |d|. TILE_MOVED: so they are, and the line's o is within u moved of this one, component
+     by component; only for packets with `any`. */
+  enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS, QN_TILE_PAIRS, QN_TILE_MOVED } tile;
+  double moved[3];
   double across[3][8], up[3][8];
   _Alignas(64) double olow[3][QN_LANES], dlow[3][QN_LANES];
   _Alignas(64) double idd[QN_LANES], inv[3][QN_LANES]; /* 1 / (d . d); 1 / d_i, or 0 where d_i = 0 */
@@ -110,6 +115,20 @@ typedef void (*qn_points_fn)(const struct quoin_scene *scene, struct qn_point_wa
 /* The spots of a whole tile into eight rows of eight, `stride` apart: of the lanes in `met`, at t (aligned to 64); nothing in the others. */
 typedef void (*qn_spots_fn)(const qn_packet_hits *hits, uint64_t met, const double t[QN_LANES], quoin_spot *out, size_t stride);
 
+/* What is seen of rays as they are put into a packet (gather.wide.c). Start from zeros, and keep it with the packet while its body sees every filling. */
+typedef struct qn_gathered {
+  int rays;                  /* each has finite numbers, a direction and a range; else nothing below means anything */
+  int one_way, one_range;    /* all have the same direction, the same range */
+  int new_ways, new_ranges;  /* they are not those of the packet before */
+  int together;              /* none goes more than some tens of degrees off the first */
+  double width2;             /* how far apart lines are from the first one's, across it, at most: the square, times its direction's */
+} qn_gathered;
+/* n rays, n > 0, into the lanes: as an 8 by 8 tile, row after row; or where `which` is not null the rays that it lists, in the lanes' order. The last is repeated
+   in the lanes that are left. Origins, directions and ranges are set and nothing else. */
+typedef void (*qn_gather_fn)(const quoin_ray *rays, const uint16_t *which, unsigned n, qn_packet *packet, qn_gathered *seen);
+/* Moves the starts of all lanes, which go one way, along their lines (blocked.c in query): the tile becomes QN_TILE_MOVED, ranges with it. */
+typedef void (*qn_move_fn)(qn_packet *packet);
+
 typedef struct qn_wide {
   const char *name;
   qn_first_fn first; /* all QN_LANES lanes: every lane's numbers must be there, live or not */
@@ -121,6 +140,8 @@ typedef struct qn_wide {
   qn_points_fn points; /* wide/points.h */
   qn_spots_fn spots;
   qn_round_one_fn round_one;
+  qn_gather_fn gather;
+  qn_move_fn move;
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

@@ -368,6 +368,7 @@ static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
       vm in = vmask((unsigned)(mask >> o) & QN_ALL_BITS);
       vd d = vload(p->d[i] + o), step = vmul(vload(at->t + o), d), x = vadd(vload(p->o[i] + o), step);
       vd slack = vfma(vadd(vabs(step), vabs(x)), vset(QN_WIDE_SPOT), vmul(vmul(vload(w->tolerance + o), vabs(d)), vset(4)));
+      slack = vadd(slack, vset(2 * QN_U * w->f.share[i]));
       vstore(low + o, vpick(in, vsub(x, slack), vset(INFINITY)));
       vstore(high + o, vpick(in, vadd(x, slack), vset(-INFINITY)));
     }

@@ -43,7 +43,7 @@ QN_INLINE uint64_t payload_of(uint32_t surface, uint32_t leaf, uint64_t larger) 
 typedef struct packet_facts {
   const qn_packet *p;
   double reach; /* no |t| at which a ray is in the solid's box is larger; infinite in unbounded scenes */
-  double share[3]; /* QN_TILE_PAIRS: the largest |o_i|, whose rounding counts with |o_i - pivot_i|; else 0 */
+  double share[3]; /* QN_TILE_PAIRS: the largest |o_i|, whose rounding counts with |o_i - pivot_i|; QN_TILE_MOVED: `moved`; else 0 */
 } packet_facts;
 
 QN_INLINE double least(double a, double b) { return b < a ? b : a; }
