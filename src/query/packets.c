@@ -63,20 +63,16 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   }
 }
 
-quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out) {
+/* The first boundary between two parameters of a lane's ray. */
+static quoin_status weave_between(quoin_work *work, const quoin_ray *ray, double from, double to, unsigned want, qn_seen *out) {
   const quoin_scene *scene = work->scene;
-  const quoin_ray ray = ray_of(packet, lane);
   *out = (qn_seen){.surface = QUOIN_NO_SURFACE};
   qn_query_begin(work);
   qn_line line;
-  qn_line_from_doubles(ray.o, ray.d, &line);
-  const qn_range range = {{.t = ray.from, .surface = QN_NO_SURFACE}, {.t = ray.to, .surface = QN_NO_SURFACE}};
+  qn_line_from_doubles(ray->o, ray->d, &line);
+  const qn_range range = {{.t = from, .surface = QN_NO_SURFACE}, {.t = to, .surface = QN_NO_SURFACE}};
   qn_woven woven;
-  const uint64_t *leaves = &qn_scratch_counts(work->scratch)->leaves, before = *leaves;
   quoin_status status = qn_weave(scene, work->scratch, &line, &range, QN_WANT_FIRST, &woven);
-  if (work->patience.learns) {
-    patience_learns(&work->patience, *leaves - before);
-  }
   if (status != QUOIN_OK || woven.inside_count == 0) {
     return status;
   }
@@ -92,6 +88,24 @@ quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned l
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
+quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out) {
+  const quoin_ray ray = ray_of(packet, lane);
+  const uint64_t *leaves = &qn_scratch_counts(work->scratch)->leaves, before = *leaves;
+  quoin_status status = weave_between(work, &ray, ray.from, ray.to, want, out);
+  if (work->patience.learns) {
+    patience_learns(&work->patience, *leaves - before);
+  }
+  return status;
+}
+
+/* A tied lane: where its boundary is was certain, who makes it is not. Only what is at that place is woven. */
+static quoin_status look_tied(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, unsigned want, qn_seen *out) {
+  const quoin_ray ray = ray_of(packet, lane);
+  const double t = hits->t[lane], e = 2 * hits->error[lane], from = nextafter(t - e, -HUGE_VAL), to = nextafter(t + e, HUGE_VAL);
+  quoin_status status = weave_between(work, &ray, from > ray.from ? from : ray.from, to < ray.to ? to : ray.to, want, out);
+  return status == QUOIN_OK && out->surface == QUOIN_NO_SURFACE ? qn_look_woven(work, packet, lane, want, out) : status;
+}
+
 quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t) {
   const quoin_ray ray = ray_of(packet, lane);
   qn_query_begin(work);
@@ -102,16 +116,26 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
+/* The tied lanes whose surface the packet names as the woven path would: no other passes there. Which of its parts is met is still open. */
+static uint64_t alone_in(const quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits) {
+  uint64_t alone = 0;
+  for (uint64_t m = hits->tied & ~hits->unsure; m; m &= m - 1) {
+    unsigned lane = qn_trailing_zeros(m);
+    const quoin_ray ray = ray_of(packet, lane);
+    alone |= (uint64_t)(qn_alone_there(work, &ray, hits->t[lane], hits->error[lane], hits->surface[lane]) != 0) << lane;
+  }
+  return alone;
+}
+
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
   uint64_t woven = hits.unsure | (want & QN_LOOK_ANY ? 0 : hits.tied);
-  if (want & QN_LOOK_MATERIAL) {
-    for (uint64_t m = hits.tied & ~hits.unsure; m; m &= m - 1) {
+  if (want & (QN_LOOK_MATERIAL | QN_LOOK_SURFACE)) {
+    for (uint64_t m = alone_in(work, packet, &hits); m; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
-      const quoin_ray ray = ray_of(packet, lane);
-      const uint32_t surface = hits.surface[lane];
-      woven &= ~((uint64_t)(!work->scene->surfaces[surface].materials_differ && qn_alone_there(work, &ray, hits.t[lane], hits.error[lane], surface)) << lane);
+      const int open = want & QN_LOOK_MATERIAL && work->scene->surfaces[hits.surface[lane]].materials_differ;
+      woven &= ~((uint64_t)!open << lane);
     }
   }
   *met = hits.found;
@@ -141,7 +165,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   }
   for (uint64_t m = woven; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
-    quoin_status status = qn_look_woven(work, packet, lane, want, &out[lane]);
+    quoin_status status = hits.unsure >> lane & 1 ? qn_look_woven(work, packet, lane, want, &out[lane]) : look_tied(work, packet, &hits, lane, want, &out[lane]);
     *met &= ~((uint64_t)1 << lane);
     *met |= (uint64_t)(out[lane].surface != QUOIN_NO_SURFACE) << lane;
     if (status != QUOIN_OK) {
@@ -159,7 +183,7 @@ static quoin_spot spot_of(const qn_seen *seen) {
 quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
-  const uint64_t woven = hits.unsure | hits.tied, found = hits.found & ~woven;
+  const uint64_t woven = hits.unsure | (hits.tied ? hits.tied & ~alone_in(work, packet, &hits) : 0), found = hits.found & ~woven;
   _Alignas(64) double rounded[QN_LANES];
   const double *t = hits.t;
   uint64_t sure = found;
@@ -176,7 +200,7 @@ quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, qu
   for (uint64_t m = woven; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
     qn_seen seen;
-    status = qn_look_woven(work, packet, lane, want, &seen);
+    status = hits.unsure >> lane & 1 ? qn_look_woven(work, packet, lane, want, &seen) : look_tied(work, packet, &hits, lane, want, &seen);
     out[qn_lane_row(lane) * stride + qn_lane_column(lane)] = spot_of(&seen);
   }
   return status;
@@ -302,7 +326,7 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
 static quoin_status look_rest(quoin_work *work, qn_packet *packet, unsigned want, unsigned n, quoin_spot *out) {
   qn_seen seen[QN_LANES];
   uint64_t met = 0;
-  quoin_status status = qn_look_packet(work, packet, want, seen, &met);
+  quoin_status status = qn_look_packet(work, packet, want | QN_LOOK_SURFACE, seen, &met);
   for (unsigned i = 0; i < n; i++) {
     out[i] = met >> i & 1 ? spot_of(&seen[i]) : (quoin_spot){.surface = QUOIN_NO_SURFACE};
   }
