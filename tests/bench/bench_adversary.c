@@ -5,6 +5,7 @@
    meets      intersections and unions by turns, n deep
    chain      a solid minus n ones, one difference in another: from the left
    nest       from the right: a - (b - (c - ...)), n deep
+   flush      a row of n boxes of many lengths with one face in one plane, and rays in that plane: their answers are boundary, and are not judged here
 
    Answers are judged by a plain evaluation that shares no code with the library: every leaf solved in long doubles, the tree
    evaluated between every two ends. */
@@ -14,16 +15,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static const char USAGE[] =
     "usage: bench_adversary [options]\n"
     "  --only A,B      only these families\n"
     "  --rays N        rays; default 200\n"
-    "  --seconds S     of each measurement; default 0.2\n"
+    "  --seconds S     of each measurement; default 0.3\n"
+    "  --only-ask A    first, all or solve: nothing else is measured (for profiles)\n"
+    "  --csv FILE      appends rows: family,leaves,bytes_a_leaf,compile_s,met,solved_first,solved_all,solve_ns,first_ns,first_times,all_ns,all_times,wrong,judged\n"
     "  --judge N       rays judged; default 40\n"
     "  --tiny          small sizes, and no times: bytes and leaves solved must keep their limits (for tests)\n"
-    "Times are nanoseconds a ray on one thread: `solve` is the time to solve the leaves that a ray meets, and no others. `x` are\n"
-    "ratios to it. Exit status 1: a wrong answer, or a limit passed.\n";
+    "Times are nanoseconds of processor time a ray, on one thread: `solve` is the time to solve the leaves that a ray meets, and no others. `x` are\n"
+    "ratios to it. The three are measured in turn over the same rays; medians of the turns. Exit status 1: a wrong answer, or a limit passed.\n";
 
 /* --- a tree of one's own ----------------------------------------------------------------------------------------------- */
 
@@ -96,7 +100,7 @@ static void random_leaf(tree *t, uint32_t parent, uint64_t *g, double spread, do
   add(t, parent, LEAF, &b);
 }
 
-typedef struct family { const char *name; void (*make)(tree *t, uint64_t *g, size_t n); size_t n, tiny; } family;
+typedef struct family { const char *name; void (*make)(tree *t, uint64_t *g, size_t n); size_t n, tiny; int flush; } family;
 
 static void heap(tree *t, uint64_t *g, size_t n, double spread, double low, double high, int box) {
   uint32_t root = add(t, UINT32_MAX, OP_DIFFERENCE, NULL);
@@ -142,9 +146,21 @@ static void chain(tree *t, uint64_t *g, size_t n) {
   free(all);
 }
 
-static const family FAMILIES[] = {{"heap", heap_close, 1000, 60},     {"heap-wide", heap_wide, 1000, 60},     {"heap-box", heap_box, 1000, 40},
-                                  {"alternate", alternate, 100, 100}, {"alternate-4", alternate_4, 100, 100}, {"meets", meets, 100, 100},
-                                  {"chain", chain, 10000, 1000},      {"nest", nest, 120, 120},               {"nest-long", nest, 10000, 1000}};
+static void flush(tree *t, uint64_t *g, size_t n) { /* all of them hold 0 < x < r in their lower halves, y = 0 is their face */
+  const double plain_axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  uint32_t all = add(t, UINT32_MAX, OP_UNION, NULL);
+  for (size_t i = 0; i < n; i++) {
+    double size = floor(bench_between(g, 8, 40));
+    ball b = {.c = {floor(bench_between(g, -40, 40)), size, 0}, .r = size, .box = 1};
+    memcpy(b.m, plain_axes, sizeof b.m);
+    add(t, all, LEAF, &b);
+  }
+}
+
+static const family FAMILIES[] = {{"heap", heap_close, 1000, 60, 0},     {"heap-wide", heap_wide, 1000, 60, 0},     {"heap-box", heap_box, 1000, 40, 0},
+                                  {"alternate", alternate, 100, 100, 0}, {"alternate-4", alternate_4, 100, 100, 0}, {"meets", meets, 100, 100, 0},
+                                  {"chain", chain, 10000, 1000, 0},      {"nest", nest, 120, 120, 0},               {"nest-long", nest, 10000, 1000, 0},
+                                  {"flush", flush, 1000, 100, 1}};
 enum { FAMILY_COUNT = sizeof FAMILIES / sizeof *FAMILIES };
 
 /* --- the plain evaluation ---------------------------------------------------------------------------------------------- */
@@ -229,8 +245,12 @@ static int same(long double want, double got) {
 
 typedef struct met { uint32_t *leaves; size_t count; } met;
 
-static quoin_ray random_ray(uint64_t *g) {
+static quoin_ray random_ray(uint64_t *g, int in_face) {
   quoin_ray ray = {.from = 0, .to = INFINITY};
+  if (in_face) {
+    quoin_ray along = {{-400, 0, floor(bench_between(g, -30, 30)) + 0.5}, {400 + bench_between(g, -40, 40), 0, bench_between(g, -40, 40)}, 0, INFINITY};
+    return along;
+  }
   double z = bench_between(g, -1, 1), p = bench_between(g, 0, 6.283185307179586), q = sqrt(1 - z * z);
   const double from[3] = {400 * q * cos(p), 400 * q * sin(p), 400 * z};
   for (int i = 0; i < 3; i++) {
@@ -341,21 +361,52 @@ static void ask_intervals(const meter *m, size_t r) {
   must(quoin_ray_intervals(m->scene, m->work, &m->rays[r], 0, &got) == QUOIN_OK);
 }
 
-static double time_of(const meter *m, size_t n, double seconds, void (*one)(const meter *m, size_t r)) {
-  double best = INFINITY;
-  for (int round = 0; round < 3; round++) {
-    double begin = bench_now(), now;
-    size_t done = 0;
-    do {
-      for (size_t r = 0; r < n; r++) {
-        one(m, r);
+static double processor_now(void) { /* seconds of this thread: others on the machine count less */
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+enum { SOLVE, FIRST, ALL, WAYS, TURNS = 15 };
+static const char *const WAY_NAMES[WAYS] = {"solve", "first", "all"};
+static void (*const WAY[WAYS])(const meter *m, size_t r) = {solve_met, ask_first, ask_intervals};
+
+static int by_size(const void *x, const void *y) {
+  double a = *(const double *)x, b = *(const double *)y;
+  return (a > b) - (a < b);
+}
+static double median(double v[TURNS]) {
+  qsort(v, TURNS, sizeof *v, by_size);
+  return v[TURNS / 2];
+}
+
+typedef struct times { double ns[WAYS], ratio[WAYS]; } times; /* ratio: to SOLVE */
+
+/* In each turn every way asks all rays as often as fills its share of the time. */
+static times measure(const meter *m, size_t n, double seconds, const char *only) {
+  double ns[WAYS][TURNS] = {{0}}, ratio[WAYS][TURNS] = {{0}};
+  times out;
+  for (int turn = -1; turn < TURNS; turn++) { /* the first warms up */
+    for (int w = 0; w < WAYS; w++) {
+      double begin = processor_now(), now = begin;
+      size_t done = 0;
+      while (!(only && strcmp(only, WAY_NAMES[w]) != 0) && (done == 0 || now - begin < seconds / TURNS)) {
+        for (size_t r = 0; r < n; r++) {
+          WAY[w](m, r);
+        }
+        done += n;
+        now = processor_now();
       }
-      done += n;
-      now = bench_now();
-    } while (now - begin < seconds / 3);
-    best = fmin(best, (now - begin) * 1e9 / (double)done);
+      if (turn >= 0) {
+        ns[w][turn] = done ? (now - begin) * 1e9 / (double)done : NAN;
+        ratio[w][turn] = ns[w][turn] / ns[SOLVE][turn];
+      }
+    }
   }
-  return best;
+  for (int w = 0; w < WAYS; w++) {
+    out.ns[w] = median(ns[w]), out.ratio[w] = median(ratio[w]);
+  }
+  return out;
 }
 
 static uint64_t leaves_of(quoin_work *work) {
@@ -364,7 +415,11 @@ static uint64_t leaves_of(quoin_work *work) {
   return s.leaves;
 }
 
-static int run(const family *f, size_t rays_wanted, size_t judged, double seconds, int tiny) {
+typedef struct options { const char *only, *ask, *csv; size_t rays, judge; double seconds; int tiny; } options;
+
+static int run(const family *f, const options *opt) {
+  const size_t rays_wanted = opt->rays;
+  const int tiny = opt->tiny;
   uint64_t g = 20261122;
   tree t = {0};
   quoin_scene *scene;
@@ -386,7 +441,7 @@ static int run(const family *f, size_t rays_wanted, size_t judged, double second
   size_t met_leaves = 0;
   meter m = {scene, work, scratch, rays, all};
   for (size_t r = 0; r < rays_wanted; r++) {
-    rays[r] = random_ray(&g);
+    rays[r] = random_ray(&g, f->flush);
     all[r].leaves = malloc(scene->leaf_count * sizeof *all[r].leaves);
     must(all[r].leaves != NULL);
     qn_line line;
@@ -402,8 +457,8 @@ static int run(const family *f, size_t rays_wanted, size_t judged, double second
     }
     met_leaves += all[r].count;
   }
-  judged = judged < rays_wanted ? judged : rays_wanted;
-  size_t wrong = wrong_answers(&t, scene, work, rays, judged) + wrong_bundles(scene, work, rays, judged, &g);
+  size_t judged = opt->judge < rays_wanted ? opt->judge : rays_wanted;
+  size_t wrong = (f->flush ? 0 : wrong_answers(&t, scene, work, rays, judged)) + wrong_bundles(scene, work, rays, judged, &g);
   double per_leaf = (double)info.memory / (double)(info.leaves ? info.leaves : 1), per_ray = (double)met_leaves / (double)rays_wanted;
   uint64_t before = leaves_of(work);
   for (size_t r = 0; r < rays_wanted; r++) {
@@ -417,9 +472,15 @@ static int run(const family *f, size_t rays_wanted, size_t judged, double second
   printf("%-12s %7zu %8.0f %7.2f %8.1f %9.1f %9.1f", f->name, info.leaves, per_leaf, compile * 1e3, per_ray, first_leaves, all_leaves);
   int good = wrong == 0;
   if (!tiny) {
-    double solve = time_of(&m, rays_wanted, seconds, solve_met), first = time_of(&m, rays_wanted, seconds, ask_first);
-    double intervals = time_of(&m, rays_wanted, seconds, ask_intervals);
-    printf(" %9.0f %9.0f %6.2f %9.0f %6.2f", solve, first, first / solve, intervals, intervals / solve);
+    times got = measure(&m, rays_wanted, opt->seconds, opt->ask);
+    printf(" %9.0f %9.0f %6.2f %9.0f %6.2f", got.ns[SOLVE], got.ns[FIRST], got.ratio[FIRST], got.ns[ALL], got.ratio[ALL]);
+    FILE *csv = opt->csv ? fopen(opt->csv, "a") : NULL;
+    must(!opt->csv || csv);
+    if (csv) {
+      fprintf(csv, "%s,%zu,%.0f,%.6f,%.2f,%.2f,%.2f,%.0f,%.0f,%.3f,%.0f,%.3f,%zu,%zu\n", f->name, info.leaves, per_leaf, compile, per_ray, first_leaves, all_leaves,
+              got.ns[SOLVE], got.ns[FIRST], got.ratio[FIRST], got.ns[ALL], got.ratio[ALL], wrong, judged);
+      must(fclose(csv) == 0);
+    }
   } else { /* counts do not depend on the machine */
     good = good && per_leaf < 4096 && first_leaves <= 4 * per_ray + 8 && all_leaves <= 4 * per_ray + 8;
   }
@@ -437,36 +498,38 @@ static int run(const family *f, size_t rays_wanted, size_t judged, double second
 }
 
 int main(int argc, char **argv) {
-  const char *only = NULL;
-  size_t rays = 200, judge = 40;
-  double seconds = 0.2;
-  int tiny = 0, good = 1;
+  options opt = {.rays = 200, .judge = 40, .seconds = 0.3};
+  int good = 1;
   for (int i = 1; i < argc; i++) {
     const char *v = i + 1 < argc ? argv[i + 1] : NULL;
     if (strcmp(argv[i], "--tiny") == 0) {
-      tiny = 1;
+      opt.tiny = 1;
     } else if (v && strcmp(argv[i], "--only") == 0) {
-      only = v, i++;
+      opt.only = v, i++;
+    } else if (v && strcmp(argv[i], "--only-ask") == 0) {
+      opt.ask = v, i++;
+    } else if (v && strcmp(argv[i], "--csv") == 0) {
+      opt.csv = v, i++;
     } else if (v && strcmp(argv[i], "--rays") == 0) {
-      rays = strtoul(v, NULL, 10), i++;
+      opt.rays = strtoul(v, NULL, 10), i++;
     } else if (v && strcmp(argv[i], "--judge") == 0) {
-      judge = strtoul(v, NULL, 10), i++;
+      opt.judge = strtoul(v, NULL, 10), i++;
     } else if (v && strcmp(argv[i], "--seconds") == 0) {
-      seconds = strtod(v, NULL), i++;
+      opt.seconds = strtod(v, NULL), i++;
     } else {
       fputs(USAGE, stderr);
       return 2;
     }
   }
-  if (rays < 1) {
+  if (opt.rays < 1) {
     fputs(USAGE, stderr);
     return 2;
   }
   printf("%-12s %7s %8s %7s %8s %9s %9s", "family", "leaves", "bytes/lf", "ms", "met/ray", "solved1", "solved");
-  printf(tiny ? "  wrong\n" : " %9s %9s %6s %9s %6s  wrong\n", "solve", "first", "x", "all", "x");
+  printf(opt.tiny ? "  wrong\n" : " %9s %9s %6s %9s %6s  wrong\n", "solve", "first", "x", "all", "x");
   for (size_t i = 0; i < FAMILY_COUNT; i++) {
-    if (wanted(only, FAMILIES[i].name)) {
-      good &= run(&FAMILIES[i], rays, judge, seconds, tiny);
+    if (wanted(opt.only, FAMILIES[i].name)) {
+      good &= run(&FAMILIES[i], &opt);
     }
   }
   return !good;

@@ -5,6 +5,9 @@
 #include "flat.h"
 #include "oracle.h"
 #include "paths.h"
+#ifdef BENCH_CLOCKED
+#include "exact_clock.h"
+#endif
 
 #include <inttypes.h>
 #include <pthread.h>
@@ -27,7 +30,9 @@ static const char USAGE[] =
     "  --oracle N      rays judged by the oracle; default 100; 0 none. It reads MODEL.flat beside MODEL.csg\n"
     "  --judge 0       nothing is judged: for further rounds\n"
     "  --csv FILE      appends rows: scene,path,threads,isa,rays,seconds,Mrays_s,judged,wrong,oracle_judged,oracle_wrong,nodes,leaves,sure,\n"
-    "                  exact_signs,exact_orders,exact_rays,exact_roundings (the last seven a ray),read_s,compile_s,leaves_kept,bytes\n"
+    "                  exact_signs,exact_orders,exact_rays,exact_roundings (the last seven a ray),read_s,compile_s,leaves_kept,bytes;\n"
+    "                  bench_exact adds the shares of the time spent in exact arithmetic, in rays and points answered one\n"
+    "                  by one, and how many leaves a camera ray meets\n"
     "  --depths FILE   writes the first hits' parameters (doubles, row-major; infinite: none) of the whole grid\n"
     "  --name NAME     the scene's name in the rows\n";
 
@@ -255,14 +260,31 @@ static quoin_stats stats_of(path_lane **lanes, unsigned n) {
   return sum;
 }
 
+static int right_so_far(const verdict *v) {
+  return v->wrong == 0 && v->oracle_wrong == 0;
+}
+
 static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) {
   double rates[64], rays = 0, seconds = 0, all_rays = 0;
-  int right = v->wrong == 0 && v->oracle_wrong == 0;
+#ifdef BENCH_CLOCKED /* of the one thread; what is made once for each surface is made before */
+  size_t *order = shuffled(path_blocks(p, &b->job), 1); /* as in measure */
+  double begin = bench_now();
+  for (size_t i = 0; order && right_so_far(v) && i < path_blocks(p, &b->job) && bench_now() - begin < 10 * b->opt.seconds; i++) {
+    p->block(&b->job, lanes[0], order[i]);
+  }
+  free(order);
+  exact_clock was = bench_exact_clock;
+  double spent = 0;
+#endif
+  int right = right_so_far(v);
   quoin_stats before = stats_of(lanes, b->opt.threads), after = before;
   if (right) {
     for (unsigned r = 0; r < b->opt.rounds; r++) {
       rates[r] = measure(b, p, lanes, &rays, &seconds);
       all_rays += rays;
+#ifdef BENCH_CLOCKED
+      spent += seconds;
+#endif
     }
     qsort(rates, b->opt.rounds, sizeof *rates, by_size);
     after = stats_of(lanes, b->opt.threads);
@@ -278,6 +300,10 @@ static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) 
     printf("%-17s     WRONG  %14s  (oracle %zu of %zu, against the first path %zu of %zu)\n", p->name, judged, v->oracle_wrong, v->oracle_judged,
            v->wrong, v->judged);
   }
+#ifdef BENCH_CLOCKED
+  double exact = (bench_exact_clock.exact - was.exact) / spent, woven = (bench_exact_clock.woven - was.woven) / spent;
+  printf("%-17s %9.4f %% of the time in exact arithmetic, %.4f %% in rays and points answered one by one\n", "", 100 * exact, 100 * woven);
+#endif
   fflush(stdout);
   if (b->opt.csv) {
     FILE *f = fopen(b->opt.csv, "a");
@@ -287,9 +313,13 @@ static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) 
     }
     const char *isa = getenv("QUOIN_ISA");
     fprintf(f, "%s,%s,%u,%s,%.0f,%.4f,", b->opt.name, p->name, b->opt.threads, isa ? isa : "best", all_rays, right ? all_rays / (rate * 1e6) : NAN);
-    fprintf(f, "%.5g,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g,%.3g,%.4f,%.4f,%zu,%zu\n", rate, v->judged, v->wrong, v->oracle_judged, v->oracle_wrong,
+    fprintf(f, "%.5g,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g,%.3g,%.4f,%.4f,%zu,%zu", rate, v->judged, v->wrong, v->oracle_judged, v->oracle_wrong,
             PER(nodes), PER(leaves), PER(filter_sure), PER(exact_signs), PER(exact_orders), PER(exact_rays), PER(exact_roundings), b->read_s, b->compile_s,
             b->info.leaves, b->info.memory);
+#ifdef BENCH_CLOCKED
+    fprintf(f, ",%.6g,%.6g,%.6g", exact, woven, bench_leaves_met(b->job.scene, &b->camera, 1000));
+#endif
+    fputc('\n', f);
     fclose(f);
   }
   return right;

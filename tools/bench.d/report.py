@@ -140,8 +140,8 @@ def scenes(results, plots, page):
     names = unique(rows, 'scene')
     at = {(r['scene'], r['path']): r for r in rows}
     paths = [p for p in unique(rows, 'path')]
-    ours = [p for p in paths if not p.startswith('embree') and p != 'povray']
-    peers = [p for p in paths if p not in ours]
+    peers = [p for p in paths if p.startswith('embree') or p == 'povray']
+    ours = [p for p in paths if p not in peers and not p.startswith('unchecked')]
     text = '## Scenes\n\nMillion rays (or points) a second on one core, from camera to hit record, median of the rounds; the programs took turns. '
     text += 'The paths: `single` one call a ray, `rows` and `tiles` arrays in blocks of 64 x 64 pixels, `grid` the grid call (`grid-t`: with t rounded correctly), '
     text += '`intervals` all stretches of a ray, arrays of tiles (`grid-intervals` by the grid call), `intervals-exact` the same with the filter off, `shadow` from what the camera sees to a light, `random` incoherent rays. '
@@ -168,6 +168,7 @@ def scenes(results, plots, page):
             if any((n, p) in at for p in peers):
                 body.append([n] + [peer_cell(at.get((n, p))) for p in peers] + [ratio(n, 'grid', packets), ratio(n, 'grid-t', packets), ratio(n, 'grid', ['povray']), ratio(n, 'grid-t', ['povray'])])
         text += table(['scene'] + peers + ['grid / Embree packets', 'grid-t / Embree packets', 'grid / POV-Ray', 'grid-t / POV-Ray'], body)
+    text += exactness(results, at, names)
     text += '\n### Counters\n\nA ray (or point): nodes visited, leaves solved, decisions certified by doubles; and a million rays: signs and orders taken exactly, rays handed to the exact path, roundings taken exactly. '
     text += 'A node or leaf that a packet of 64 meets counts once.\n\n'
     million = lambda r, k: short(1e6 * number(r[k]))
@@ -176,6 +177,32 @@ def scenes(results, plots, page):
             for n in names for p in ('grid', 'grid-t', 'intervals', 'grid-intervals', 'shadow', 'random', 'points') for r in [at.get((n, p))] if r and r['nodes']]
     text += table(['scene', 'path', 'nodes', 'leaves', 'sure', 'signs', 'orders', 'exact rays', 'roundings'], body)
     return text
+
+
+def exactness(results, at, names):
+    """What certainty costs, and the exact tier's share of the time."""
+    text = ''
+    paths = [p[len('unchecked-'):] for p in unique([dict(p=k[1]) for k in at], 'p') if p.startswith('unchecked-')]
+    if paths:
+        text += '\n### What certainty costs\n\nTimes the time of the same path built without error bounds (`bench_unchecked`, whose answers may be wrong): in packets, and one by one.\n\n'
+        text += table(['scene'] + paths, [[n] + [short(certainty(at, n, p)) for p in paths] for n in names])
+    rows = read(results, 'exact')
+    if rows:
+        by = {(r['scene'], r['path']): r for r in rows}
+        paths = unique(rows, 'path')
+        percent = lambda r, k: short(100 * number(r[k]), 2) if r else ''
+        text += '\n### The exact tier\n\nPercent of the time in exact arithmetic (integers: exact forms, quadratics, roots, cells). In brackets, where there are any: percent of the time in rays and points '
+        text += 'that doubles in packets did not decide and that were answered one by one, that arithmetic included. A program with a clock at every way into these measured it (`bench_exact`), after what is made '
+        text += 'but once for each surface had been made.\n\n'
+        cell = lambda r: percent(r, 'exact_share') + (' (%s)' % percent(r, 'woven_share') if r and number(r['woven_share']) > 0 else '')
+        text += table(['scene'] + paths, [[n] + [cell(by.get((n, p))) for p in paths] for n in unique(rows, 'scene')])
+    return text
+
+
+def certainty(at, scene, path):
+    """How many times the unchecked path's time the path takes."""
+    mine, theirs = at.get((scene, path)), at.get((scene, 'unchecked-' + path))
+    return number(theirs['mrays']) / number(mine['mrays']) if mine and theirs else math.nan
 
 
 def pictures(results, plots, page):
@@ -204,23 +231,49 @@ def pictures(results, plots, page):
     return text
 
 
+def family(name):
+    return name.split('-')[0]
+
+
+def drawn(name):
+    """Leaves that the model of a growing family has; not those that the compiled scene keeps."""
+    return 1 + 3 * (8**int(name.split('-')[1]) - 1) // 7 if name.startswith('menger') else int(name.split('-')[1])
+
+
+def over_logarithm(rows):
+    """How many times more the cost of a ray grows than the logarithm of the leaves: from the smallest size to where that is most."""
+    points = sorted((drawn(r['scene']), 1 / number(r['mrays'])) for r in rows)
+    n0, cost0 = points[0]
+    return max(((cost / cost0) / (math.log(n) / math.log(n0)) for n, cost in points[1:]), default=math.nan)
+
+
+def adversary(results):
+    rows = read(results, 'adversary')
+    if not rows:
+        return ''
+    text = '## Trees made to hurt\n\nNanoseconds of processor time a ray on one thread, beside solving just the leaves that it meets; in turn, medians. `bench_adversary --help` and the head of its source name the families. '
+    text += 'Of the rays judged, none was answered wrongly where the last column says 0.\n\n'
+    return text + table(['family', 'leaves', 'bytes a leaf', 'leaves met', 'solving them, ns', 'first hit, ns', 'times', 'all intervals, ns', 'times', 'wrong'],
+                        [[r['family'], r['leaves'], r['bytes_a_leaf'], short(number(r['met'])), short(number(r['solve_ns'])), short(number(r['first_ns'])), short(number(r['first_times'])),
+                          short(number(r['all_ns'])), short(number(r['all_times'])), '%s of %s' % (r['wrong'], r['judged'])] for r in rows])
+
+
 def growth(results, plots, page):
     rows, build, threads = read(results, 'growth'), read(results, 'build'), read(results, 'threads')
     text = ''
     if rows:
-        family = lambda name: name.split('-')[0]
         families = list(dict.fromkeys(family(r['scene']) for r in rows))
         rate = lambda r: 1e3 / number(r['mrays'])
         text += '## Growth\n\nThe cost of a ray against the number of leaves: a union of spheres, a plate minus holes, a balanced random tree, a Menger sponge (512 x 512 rays).\n\n'
-        # leaves the model has, not those that the compiled scene keeps
-        drawn = lambda name: 1 + 3 * (8**int(name.split('-')[1]) - 1) // 7 if name.startswith('menger') else int(name.split('-')[1])
         for p, title in (('grid', 'camera rays in packets'), ('single', 'camera rays one by one'), ('random', 'incoherent rays')):
             series = [(f, [(drawn(r['scene']), rate(r)) for r in rows if family(r['scene']) == f and r['path'] == p], 'linespoints') for f in families]
             text += shown(plot(plots, 'growth-' + p, 'Growth: ' + title, 'leaves', 'ns a ray', series, 'set logscale x\nset yrange [0:*]'), page)
         paths = unique(rows, 'path')
         text += '\nNanoseconds a ray (or point).\n\n'
         by = {(r['scene'], r['path']): r for r in rows}
-        text += table(['scene', 'leaves kept'] + paths, [[n, by[n, paths[0]]['leaves_kept']] + [short(rate(by[n, p])) if (n, p) in by else '' for p in paths] for n in unique(rows, 'scene')])
+        text += table(['scene', 'leaves kept', 'leaves met'] + paths, [[n, by[n, paths[0]]['leaves_kept'], short(number(by[n, paths[0]].get('met')))] +
+                                                                      [short(rate(by[n, p])) if (n, p) in by else '' for p in paths] for n in unique(rows, 'scene')])
+        text += '\n*Leaves met*: how many leaves one of these camera rays runs through, from its beginning to its end. A first hit need not look at all of them, all intervals must.\n'
         if build:
             series = [('%s, %s thread%s' % (f, t, '' if t == '1' else 's'), [(drawn(r['scene']), number(r['compile_s'])) for r in build if family(r['scene']) == f and r['build_threads'] == t], 'linespoints')
                       for f in families for t in unique(build, 'build_threads')]
@@ -238,6 +291,9 @@ def growth(results, plots, page):
     return text
 
 
+FLUSH = ('coplanar', 'menger4', 'part50flush') # full of coincident faces
+
+
 def goals(results):
     """The goals that these measurements can judge."""
     at = {(r['scene'], r['path']): peer_rate(r) for r in read(results, 'scenes')}
@@ -248,6 +304,10 @@ def goals(results):
     def goal(what, reached, wanted):
         if reached == reached:
             rows.append([what, short(reached), short(wanted), 'yes' if reached >= wanted else 'no'])
+
+    def most(what, reached, wanted):
+        if reached == reached:
+            rows.append([what, short(reached), 'at most ' + short(wanted), 'yes' if reached <= wanted else 'no'])
 
     for n, times in (('sphere1', 10), ('spheres10k', 6), ('spheres1M', 4)):
         goal('%s: `grid`, times Embree\'s packets' % n, get(n, 'grid') / embree(n), times)
@@ -267,6 +327,28 @@ def goals(results):
     for r in read(results, 'growth'):
         if r['scene'] == 'plate-10000' and r['path'] == 'points':
             goal('plate-10000: points, million a second', peer_rate(r), 20)
+    scene_rows = {(r['scene'], r['path']): r for r in read(results, 'scenes')}
+    for n in unique(read(results, 'scenes'), 'scene'):
+        most('%s: `grid`, times the same without error bounds' % n, certainty(scene_rows, n, 'grid'), 1.3)
+        most('%s: `single`, times the same without error bounds' % n, certainty(scene_rows, n, 'single'), 1.3)
+    exact = read(results, 'exact')
+    for n in unique(exact, 'scene'):
+        worst = max((r for r in exact if r['scene'] == n), key=lambda r: number(r['exact_share']))
+        if number(worst['exact_share']) > 0:
+            most('%s: percent of the time in exact arithmetic, most (`%s`)' % (n, worst['path']), 100 * number(worst['exact_share']), 5 if n in FLUSH else 1)
+        else:
+            most('%s: percent of the time in exact arithmetic, on every path' % n, 0, 5 if n in FLUSH else 1)
+    for r in read(results, 'adversary'):
+        if r['wrong'] == '0':
+            most('%s: first hit, times solving the leaves that the ray meets' % r['family'], number(r['first_times']), 4)
+            most('%s: all intervals, times solving the leaves that the ray meets' % r['family'], number(r['all_times']), 4)
+    grown = read(results, 'growth')
+    for f in list(dict.fromkeys(family(r['scene']) for r in grown)):
+        for p in unique(grown, 'path'):
+            sizes = [r for r in grown if family(r['scene']) == f and r['path'] == p]
+            if len(sizes) > 1:
+                least, largest = min(drawn(r['scene']) for r in sizes), max(drawn(r['scene']) for r in sizes)
+                most('%s, `%s`: growth of a ray\'s cost from %d to %d leaves, times the logarithm\'s' % (f, p, least, largest), over_logarithm(sizes), 1)
     build = [r for r in read(results, 'build') if r['scene'] == 'spheres-1000000' and r['build_threads'] != '1']
     if build:
         goal('1,000,000 spheres: compiled, times a second', 1 / number(build[0]['compile_s']), 1)
@@ -300,7 +382,7 @@ def machine():
 def write(results, page, command):
     plots = os.path.join(os.path.dirname(page), 'benchmarks')
     text = '# Benchmarks\n\nWritten by `%s`; do not edit. Machine: %s. What carries from one machine to another are the ratios of one run.\n\n' % (command, machine())
-    parts = [goals(results), scenes(results, plots, page), solvers(results, plots, page), pictures(results, plots, page), growth(results, plots, page)]
+    parts = [goals(results), scenes(results, plots, page), solvers(results, plots, page), pictures(results, plots, page), growth(results, plots, page), adversary(results)]
     text += '\n'.join(p for p in parts if p)
     os.makedirs(os.path.dirname(page), exist_ok=True)
     with open(page, 'w') as f:

@@ -20,8 +20,12 @@ QUICK_PATHS = ['single', 'tiles', 'grid-t', 'grid', 'intervals', 'grid-intervals
 QUICK_SCENES = ['sphere1', 'plate1000', 'spheres10k', 'tree1024', 'menger4']
 SPHERES = ['sphere1', 'spheres10k', 'spheres1M']
 NO_POVRAY = ['spheres1M', 'parts2000', 'plate100k', 'tree65k'] # too large for it
+EXACT_PATHS = ['single', 'grid-t', 'grid', 'intervals', 'shadow', 'random', 'points'] # whose share of exact arithmetic is measured
+UNCHECKED_PATHS = ['grid', 'single'] # in packets, and one by one
 SCENE_FIELDS = ('scene,path,threads,isa,rays,seconds,mrays,judged,wrong,oracle_judged,oracle_wrong,nodes,leaves,sure,exact_signs,exact_orders,exact_rays,'
                 'exact_roundings,read_s,compile_s,leaves_kept,bytes').split(',')
+EXACT_FIELDS = SCENE_FIELDS + ['exact_share', 'woven_share', 'met']
+ADVERSARY_FIELDS = 'family,leaves,bytes_a_leaf,compile_s,met,solved_first,solved_all,solve_ns,first_ns,first_times,all_ns,all_times,wrong,judged'.split(',')
 
 
 class Bench:
@@ -68,7 +72,7 @@ class Bench:
         with open(path, newline='') as f:
             return list(csv.DictReader(f, fields))
 
-    def scene_rows(self, command):
+    def scene_rows(self, command, fields=SCENE_FIELDS):
         """Runs a program with --csv and returns its rows."""
         path = os.path.join(self.results, 'now.csv')
         if os.path.exists(path):
@@ -76,7 +80,7 @@ class Bench:
         done = self.run(command + ['--csv', path])
         if done.returncode not in (0, 1):
             self.say('%s: exit code %d' % (os.path.basename(command[0]), done.returncode))
-        rows = self.rows(path, SCENE_FIELDS)
+        rows = self.rows(path, fields)
         if os.path.exists(path):
             os.remove(path)
         return rows
@@ -114,7 +118,8 @@ def scenes_part(b):
     rounds = a.rounds or (1 if a.quick else 3)
     seconds = 0.12 if a.quick else 0.3
     size = a.size or (512 if a.quick else 1024)
-    everything = []
+    everything, exact = [], []
+    unchecked = b.program('bench_unchecked')
     have_povray = not a.no_peers and shutil.which('povray') is not None
     embree = None if a.no_peers else b.program('bench_embree')
     for name in names:
@@ -128,6 +133,10 @@ def scenes_part(b):
             if a.path or a.quick:
                 command += ['--paths', ','.join(a.path or QUICK_PATHS)]
             rows += b.scene_rows(command)
+            if unchecked and not a.path: # its answers are not judged: it only tells what certainty costs
+                theirs = b.scene_rows([unchecked, base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
+                                       '--oracle', 0, '--judge', 0, '--build-threads', 0, '--paths', ','.join(UNCHECKED_PATHS)])
+                rows += [dict(r, path='unchecked-' + r['path']) for r in theirs]
             if embree and name in SPHERES:
                 rows += b.scene_rows([embree, base + '.flat', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
                                       '--oracle', (40 if a.quick else 200) if r == 0 else 0])
@@ -138,6 +147,10 @@ def scenes_part(b):
         everything += merged
         print_ratios(name, merged)
         b.write('scenes', SCENE_FIELDS, everything)
+        if b.program('bench_exact') and not a.path:
+            exact += b.scene_rows([b.program('bench_exact'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds / 2, '--size', size,
+                                   '--oracle', 0, '--judge', 0, '--build-threads', 0, '--paths', ','.join(EXACT_PATHS)], EXACT_FIELDS)
+            b.write('exact', EXACT_FIELDS, exact)
 
 
 def povray_rows(b, base, name, judging):
@@ -333,12 +346,14 @@ def growth_part(b):
                 found = b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
                                       0.05 if quick else 0.2, '--size', 512, '--oracle', 20, '--judge', int(threads == 1), '--build-threads', threads, '--paths',
                                       ','.join(GROWTH_PATHS if threads else ['grid'])])
+                met = b.scene_rows([b.program('bench_exact'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', 0.001, '--oracle', 0, '--judge', 0,
+                                    '--build-threads', 0, '--paths', 'grid'], EXACT_FIELDS) if threads and b.program('bench_exact') else []
                 for r in found if threads else []:
-                    rows.append(r)
+                    rows.append(dict(r, met=met[0]['met'] if met else ''))
                 for r in found[:1]:
                     build.append(dict(scene=name, build_threads=threads or os.cpu_count(), leaves=r['leaves_kept'], read_s=r['read_s'],
                                       compile_s=r['compile_s'], bytes=r['bytes']))
-        b.write('growth', SCENE_FIELDS, rows)
+        b.write('growth', SCENE_FIELDS + ['met'], rows)
         b.write('build', ['scene', 'build_threads', 'leaves', 'read_s', 'compile_s', 'bytes'], build)
     rows = []
     for name in THREAD_SCENES if not quick else THREAD_SCENES[:1]:
@@ -349,6 +364,16 @@ def growth_part(b):
             rows += b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
                                   0.1 if quick else 0.4, '--judge', 0, '--threads', threads, '--paths', 'grid,single,intervals'])
     b.write('threads', SCENE_FIELDS, rows)
+
+
+# --- trees made to hurt ------------------------------------------------------------------------------------------------
+
+def adversary_part(b):
+    path = os.path.join(b.results, 'adversary.csv')
+    if os.path.exists(path):
+        os.remove(path)
+    b.run([b.program('bench_adversary'), '--csv', path] + (['--rays', 60, '--judge', 10, '--seconds', 0.1] if b.args.quick else ['--seconds', 1]))
+    b.write('adversary', ADVERSARY_FIELDS, b.rows(path, ADVERSARY_FIELDS))
 
 
 # --- solvers ---------------------------------------------------------------------------------------------------------
@@ -363,7 +388,7 @@ def main():
     names = lambda text: [x for x in text.split(',') if x]
     p.add_argument('--build', default='build-bench')
     p.add_argument('--quick', action='store_true')
-    p.add_argument('--only', type=names, default=['solvers', 'scenes', 'pictures', 'growth'])
+    p.add_argument('--only', type=names, default=['solvers', 'scenes', 'pictures', 'growth', 'adversary'])
     p.add_argument('--scene', type=names)
     p.add_argument('--path', type=names)
     p.add_argument('--size', type=int)
@@ -371,7 +396,7 @@ def main():
     p.add_argument('--no-peers', action='store_true')
     p.add_argument('--page', action='store_true')
     b = Bench(p.parse_args())
-    parts = {'solvers': solvers_part, 'scenes': scenes_part, 'pictures': pictures_part, 'growth': growth_part}
+    parts = {'solvers': solvers_part, 'scenes': scenes_part, 'pictures': pictures_part, 'growth': growth_part, 'adversary': adversary_part}
     for name in b.args.only:
         if name not in parts:
             p.error('no part is called ' + name)
