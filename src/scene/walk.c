@@ -41,40 +41,45 @@ static axis axis_of(double o, double d) {
   return a;
 }
 
-/* Which of the node's boxes may be met for t in [from, to] (widened already): a bit each. */
-static unsigned boxes_met(const qn_bvh_node *n, const axis axes[3], double from, double to) {
-  double near[QN_BVH_WIDE], far[QN_BVH_WIDE];
-  unsigned met = (1u << QN_BVH_WIDE) - 1;
-  for (int i = 0; i < QN_BVH_WIDE; i++) {
+/* Which of four of the node's boxes, from the first on, may be met for t in [from, to] (widened already): a bit each. Four, so that all stays in registers.
+   An axis without information leaves an infinity, which the slack does not change. */
+QN_INLINE unsigned four_met(const qn_bvh_node *n, size_t first, const axis axes[3], double from, double to) {
+  enum { FOUR = 4 };
+  double near[FOUR], far[FOUR];
+  unsigned met = (1u << FOUR) - 1;
+  for (int i = 0; i < FOUR; i++) {
     near[i] = -INFINITY;
     far[i] = INFINITY;
   }
   for (int k = 0; k < 3; k++) {
     const axis *a = &axes[k];
+    const float *min = n->min[k] + first, *max = n->max[k] + first;
     if (a->kind == AXIS_SLAB) {
-      const float *first = a->flip ? n->max[k] : n->min[k], *last = a->flip ? n->min[k] : n->max[k];
-      for (int i = 0; i < QN_BVH_WIDE; i++) {
-        double enter = ((double)first[i] - a->o) * a->inverse - a->slack;
-        double leave = ((double)last[i] - a->o) * a->inverse + a->slack;
+      const float *begin = a->flip ? max : min, *end = a->flip ? min : max;
+      for (int i = 0; i < FOUR; i++) {
+        double enter = ((double)begin[i] - a->o) * a->inverse - a->slack;
+        double leave = ((double)end[i] - a->o) * a->inverse + a->slack;
         near[i] = enter > near[i] ? enter : near[i];
         far[i] = leave < far[i] ? leave : far[i];
       }
     } else if (a->kind == AXIS_ACROSS) {
-      for (int i = 0; i < QN_BVH_WIDE; i++) {
-        unsigned inside = ((double)n->min[k][i] <= a->high) & ((double)n->max[k][i] >= a->low);
+      for (int i = 0; i < FOUR; i++) {
+        unsigned inside = ((double)min[i] <= a->high) & ((double)max[i] >= a->low);
         met &= ~((inside ^ 1u) << i);
       }
     }
   }
-  for (int i = 0; i < QN_BVH_WIDE; i++) {
+  for (int i = 0; i < FOUR; i++) {
     double enter = near[i] - QN_BOX_SLACK * fabs(near[i]), leave = far[i] + QN_BOX_SLACK * fabs(far[i]);
-    /* An axis without information left an infinity: infinity - infinity must not come of it. */
-    enter = near[i] == -INFINITY ? near[i] : enter;
-    leave = far[i] == INFINITY ? far[i] : leave;
     unsigned hit = (enter <= leave) & (enter <= to) & (leave >= from);
     met &= ~((hit ^ 1u) << i);
   }
   return met;
+}
+
+_Static_assert(QN_BVH_WIDE == 8, "twice four");
+static unsigned boxes_met(const qn_bvh_node *n, const axis axes[3], double from, double to) {
+  return four_met(n, 0, axes, from, to) | four_met(n, 4, axes, from, to) << 4;
 }
 
 /* One level leaves at most 7 siblings behind. */
@@ -82,9 +87,9 @@ enum { STACK = (QN_BVH_WIDE - 1) * QN_BVH_DEPTH + 1 };
 
 static size_t push_children(const qn_bvh *bvh, const qn_bvh_node *n, unsigned met, uint32_t *stack, size_t top,
                             void (*visit)(void *user, uint32_t leaf), void *user) {
-  for (int i = 0; i < QN_BVH_WIDE; i++) {
-    uint32_t child = n->child[i];
-    if (!(met >> i & 1) || child == QN_BVH_NONE) {
+  for (; met; met &= met - 1) {
+    uint32_t child = n->child[qn_trailing_zeros(met)];
+    if (child == QN_BVH_NONE) {
       continue;
     }
     if (child & QN_BVH_LEAF) {
