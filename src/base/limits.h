@@ -21,6 +21,15 @@
    has fewer than QN_MAX_DIGITS digits and can be read again. Met: Q0904 "exact number too large". */
 #define QN_MAX_KEPT_BITS (1 << 15)
 
+/* Effort of the arithmetic in one text: QN_MAX_EFFORT and QN_EFFORT_PER_BYTE for each byte of the text. The unit is some half of a nanosecond: a result of n limbs
+   counts n^2 of them, an element of a vector made or compared QN_EFFORT_ELEMENT, which bounds memory too, a byte of a string that is looked at QN_EFFORT_BYTE. Without
+   it a vector of two vectors of two vectors ... is 2^60 numbers in a text of 1000 bytes. Met: Q0910 "too much arithmetic". */
+#define QN_MAX_EFFORT (UINT64_C(1) << 30)
+#define QN_EFFORT_PER_BYTE 1024
+#define QN_EFFORT_ELEMENT 256
+#define QN_EFFORT_BYTE 4
+#define QN_EFFORT_NAME 16 /* a byte of a name of a part, which is kept */
+
 /* Bits of one exact number while maps and surfaces of a scene are composed: transforms nested in transforms multiply. Met:
    QUOIN_E_LIMIT from the compilation, or from a question that needs that surface exactly. */
 #define QN_MAX_SCENE_BITS ((size_t)1 << 22)

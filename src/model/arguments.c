@@ -164,6 +164,8 @@ static int keep(qn_call *call, qn_num n, qn_num *out) {
     *out = QN_NUM_ZERO;
     return 0;
   }
+  qn_ctx_spend(&call->ev->ctx, n.u.big->num.n < 0 ? (size_t)-n.u.big->num.n : (size_t)n.u.big->num.n, QN_EFFORT_ELEMENT);
+  qn_ctx_spend(&call->ev->ctx, (size_t)n.u.big->den.n, QN_EFFORT_ELEMENT);
   *out = qn_num_copy(&call->ev->model->ctx, n);
   return 1;
 }

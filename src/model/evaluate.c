@@ -236,6 +236,9 @@ static void begin(qn_evaluator *ev, const qn_statement *st, uint32_t parent, uin
   }
   uint32_t node = w->make(&call);
   quoin_status failed = ev->ctx.failed ? ev->ctx.failed : ev->model->ctx.failed;
+  if (failed == QUOIN_E_LIMIT && qn_too_much(ev, st->offset)) {
+    return;
+  }
   if (failed == QUOIN_E_LIMIT) {
     ev->ctx.failed = ev->model->ctx.failed = QUOIN_OK;
     qn_arg_tell(&call, QN_Q0904, -1, "an exact result of more than 131072 bits", NULL, "exact number too large");
@@ -357,6 +360,7 @@ quoin_status qn_evaluate(quoin_model *model, uint32_t parent, qn_syntax *syntax,
   qn_evaluator ev = {.model = model, .mem = &model->mem, .syntax = syntax, .source = source, .reporter = reporter, .options = *options};
   qn_ctx_init(&ev.ctx, ev.mem);
   ev.ctx.max_bits = QN_MAX_BITS;
+  ev.ctx.max_effort = QN_MAX_EFFORT + QN_EFFORT_PER_BYTE * (uint64_t)source->length;
   if (set_up(&ev)) {
     run(&ev, parent);
   } else {

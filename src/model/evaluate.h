@@ -61,6 +61,9 @@ quoin_status qn_evaluate(quoin_model *model, uint32_t parent, qn_syntax *syntax,
 /* The value of code[from, to). (expression.c) */
 qn_value qn_evaluate_expression(qn_evaluator *ev, uint32_t from, uint32_t to);
 
+/* Whether the text has asked for too much arithmetic, which is told, and ends the reading. (expression.c) */
+int qn_too_much(qn_evaluator *ev, uint32_t offset);
+
 /* Operators and functions (operate.c, functions.c). Errors are told at `offset`, and give BAD. */
 qn_value qn_operate_unary(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_value a);
 qn_value qn_operate(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_value a, qn_value b);

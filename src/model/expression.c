@@ -54,6 +54,15 @@ static qn_value small(const qn_op *op) {
   return qn_value_number((qn_num){.u.m = (int32_t)op->a, .a = op->e2, .b = op->e5, .kind = QN_NUM_SMALL});
 }
 
+int qn_too_much(qn_evaluator *ev, uint32_t offset) {
+  if (ev->ctx.effort <= ev->ctx.max_effort) {
+    return 0;
+  }
+  qn_tell(ev->reporter, QN_Q0910, offset, 1, "its cost is out of proportion to the length of the text", "write fewer and shorter values", "too much arithmetic");
+  ev->reporter->stop = 1;
+  return 1;
+}
+
 qn_value qn_evaluate_expression(qn_evaluator *ev, uint32_t from, uint32_t to) {
   const qn_op *ops = ev->syntax->ops;
   if (to - from == 1 && ops[from].kind == QN_OP_SMALL) { /* most arguments */
@@ -180,6 +189,10 @@ qn_value qn_evaluate_expression(qn_evaluator *ev, uint32_t from, uint32_t to) {
       break;
     }
     if (ev->ctx.failed == QUOIN_E_LIMIT) {
+      if (qn_too_much(ev, op->offset)) {
+        ev->stack_count = base;
+        break;
+      }
       ev->ctx.failed = QUOIN_OK;
       qn_tell(ev->reporter, QN_Q0904, op->offset, 1, "an exact result of more than 131072 bits", "use smaller exponents",
               "exact number too large");

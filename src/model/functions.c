@@ -1,4 +1,5 @@
 /* The built-in functions of numbers and vectors. Angles are degrees. Exact where the result is rational (number/num.h). */
+#include "base/limits.h"
 #include "model/evaluate.h"
 
 #include <math.h>
@@ -162,6 +163,9 @@ static qn_value extreme(const call *c, int want) {
   if (n == 0) {
     return wrong(c, "there is nothing to choose from");
   }
+  if (!qn_ctx_spend(c->ctx, n, QN_EFFORT_ELEMENT / 4)) {
+    return QN_BAD;
+  }
   for (size_t i = 0; i < n; i++) {
     if (!qn_value_is_number(v[i])) {
       return wrong(c, NULL);
@@ -183,6 +187,7 @@ static qn_value f_len(const call *c) {
   size_t n = c->a[0].count;
   if (c->a[0].kind == QN_V_STRING) {
     n = 0;
+    qn_ctx_spend(c->ctx, c->a[0].count, QN_EFFORT_BYTE);
     for (size_t i = 0; i < c->a[0].count; i++) {
       n += ((unsigned char)c->a[0].u.text[i] & 0xC0) != 0x80;
     }

@@ -1,5 +1,6 @@
 /* Colours, materials, names; camera, lights, background; echo and assert. These numbers are doubles from here on: they
    change what a picture looks like, not where a solid is. */
+#include "base/limits.h"
 #include "model/words.h"
 
 #include <stdio.h>
@@ -106,6 +107,9 @@ uint32_t qn_make_name(qn_call *call) {
       qn_arg_tell(call, QN_Q0412, -1, NULL, "write name(\"...\")", "the name is missing");
     }
     return qn_make_union(call);
+  }
+  if (!qn_ctx_spend(&call->ev->ctx, length, QN_EFFORT_NAME)) {
+    return QN_NO_NODE;
   }
   uint32_t n = qn_solid_name(call->ev->model, text, length);
   if (n == UINT32_MAX) {

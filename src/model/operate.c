@@ -1,5 +1,6 @@
 /* Operators, with OpenSCAD's meaning on exact numbers. What OpenSCAD makes undef with a warning is an error here: it would
    become a wrong solid. */
+#include "base/limits.h"
 #include "model/evaluate.h"
 
 #include <math.h>
@@ -91,8 +92,11 @@ static qn_value undefined(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_v
   return QN_BAD;
 }
 
-/* A vector of n values to be filled in; null when memory is refused. */
+/* A vector of n values to be filled in; null when memory or the effort is refused. */
 static qn_value *room(qn_evaluator *ev, size_t n) {
+  if (!qn_ctx_spend(&ev->ctx, n, QN_EFFORT_ELEMENT)) {
+    return NULL;
+  }
   qn_value *items = qn_arena_take(&ev->ctx.arena, n * sizeof *items);
   if (!items) {
     ev->ctx.failed = QUOIN_E_MEMORY;
@@ -112,6 +116,9 @@ static int all_numbers(qn_value v) {
 /* The sum of a[i] b[i], n of them; `stride`: b's items are rows, of which element `column` is meant. */
 static qn_value dot(qn_evaluator *ev, const qn_value *a, const qn_value *b, size_t n, int rows, size_t column) {
   qn_mark mark = qn_arena_mark(&ev->ctx.arena);
+  if (!qn_ctx_spend(&ev->ctx, n, QN_EFFORT_ELEMENT)) {
+    return QN_BAD;
+  }
   qn_num *x = qn_arena_take(&ev->ctx.arena, 2 * n * sizeof *x);
   if (!x) {
     ev->ctx.failed = QUOIN_E_MEMORY;
@@ -126,7 +133,11 @@ static qn_value dot(qn_evaluator *ev, const qn_value *a, const qn_value *b, size
     y[i] = bi->u.number;
   }
   if (finite) {
-    return qn_value_number(qn_num_dot(&ev->ctx, n, x, y));
+    qn_num sum = qn_num_dot(&ev->ctx, n, x, y);
+    if (sum.kind == QN_NUM_SMALL) {
+      qn_arena_release(&ev->ctx.arena, mark);
+    }
+    return qn_value_number(sum);
   }
   qn_arena_release(&ev->ctx.arena, mark);
   qn_value sum = qn_value_number(QN_NUM_ZERO);
@@ -158,27 +169,27 @@ static qn_value product(qn_evaluator *ev, uint32_t offset, qn_value a, qn_value 
   size_t na = columns(a), nb = columns(b);
   if (na && b.count == na && all_numbers(b)) {
     qn_value *items = room(ev, a.count);
-    for (size_t i = 0; items && i < a.count; i++) {
+    for (size_t i = 0; items && i < a.count && !ev->ctx.failed; i++) {
       items[i] = dot(ev, a.u.items[i].u.items, b.u.items, na, 0, 0);
     }
-    return items ? qn_value_vector(&ev->ctx, items, a.count) : QN_BAD;
+    return items && !ev->ctx.failed ? qn_value_vector(&ev->ctx, items, a.count) : QN_BAD;
   }
   if (nb && a.count == b.count && all_numbers(a)) {
     qn_value *items = room(ev, nb);
-    for (size_t j = 0; items && j < nb; j++) {
+    for (size_t j = 0; items && j < nb && !ev->ctx.failed; j++) {
       items[j] = dot(ev, a.u.items, b.u.items, a.count, 1, j);
     }
-    return items ? qn_value_vector(&ev->ctx, items, nb) : QN_BAD;
+    return items && !ev->ctx.failed ? qn_value_vector(&ev->ctx, items, nb) : QN_BAD;
   }
   if (na && nb && na == b.count) {
     qn_value *rows = room(ev, a.count), *items = room(ev, nb);
-    for (size_t i = 0; rows && items && i < a.count; i++) {
-      for (size_t j = 0; j < nb; j++) {
+    for (size_t i = 0; rows && items && i < a.count && !ev->ctx.failed; i++) {
+      for (size_t j = 0; j < nb && !ev->ctx.failed; j++) {
         items[j] = dot(ev, a.u.items[i].u.items, b.u.items, na, 1, j);
       }
-      rows[i] = qn_value_vector(&ev->ctx, items, nb);
+      rows[i] = ev->ctx.failed ? QN_BAD : qn_value_vector(&ev->ctx, items, nb);
     }
-    return rows && items ? qn_value_vector(&ev->ctx, rows, a.count) : QN_BAD;
+    return rows && items && !ev->ctx.failed ? qn_value_vector(&ev->ctx, rows, a.count) : QN_BAD;
   }
   return undefined(ev, QN_OP_MULTIPLY, offset, a, b, sizes);
 }
@@ -209,7 +220,7 @@ static qn_value compare(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_val
     }
   } else if (a.kind == QN_V_STRING && b.kind == QN_V_STRING) {
     size_t n = a.count < b.count ? a.count : b.count;
-    c = memcmp(a.u.text, b.u.text, n);
+    c = qn_ctx_spend(&ev->ctx, n, 1) ? memcmp(a.u.text, b.u.text, n) : 0;
     c = c ? c : (a.count > b.count) - (a.count < b.count);
   } else if (a.kind == QN_V_BOOL && b.kind == QN_V_BOOL) {
     c = a.u.truth - b.u.truth;
@@ -289,8 +300,11 @@ qn_value qn_operate_unary(qn_evaluator *ev, qn_op_kind op, uint32_t offset, qn_v
     if (!items) {
       return QN_BAD;
     }
-    for (size_t i = 0; i < a.count; i++) {
+    for (size_t i = 0; i < a.count && !ev->ctx.failed; i++) {
       items[i] = qn_operate_unary(ev, op, offset, a.u.items[i]);
+    }
+    if (ev->ctx.failed) {
+      return QN_BAD;
     }
     return qn_value_vector(&ev->ctx, items, a.count);
   }
@@ -313,6 +327,9 @@ qn_value qn_index(qn_evaluator *ev, uint32_t offset, qn_value v, qn_value i) {
   int fits = qn_num_is_integer(whole, &n) && n >= 0;
   if (v.kind == QN_V_STRING) {
     size_t at = 0;
+    if (!qn_ctx_spend(&ev->ctx, v.count, QN_EFFORT_BYTE)) {
+      return QN_BAD;
+    }
     for (int64_t c = 0; fits && at < v.count; c++) { /* characters, not bytes */
       size_t end = at + 1;
       while (end < v.count && ((unsigned char)v.u.text[end] & 0xC0) == 0x80) {

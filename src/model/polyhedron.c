@@ -47,8 +47,11 @@ static qn_num cross_component(qn_ctx *ctx, const qn_num *a, const qn_num *b, siz
   return qn_num_dot(ctx, 2, x, y);
 }
 
+enum { EFFORT_SIDE = 160, EFFORT_TURN = 2048 }; /* QN_MAX_EFFORT: some 2000 faces of 1000 points, or two of 700 */
+
 /* The sign of n.p - d. */
 static int side(qn_ctx *ctx, const qn_num plane[4], const qn_num *p) {
+  qn_ctx_spend(ctx, 1, EFFORT_SIDE);
   qn_mark mark = qn_arena_mark(&ctx->arena);
   qn_num x[4] = {plane[0], plane[1], plane[2], plane[3]}, y[4] = {p[0], p[1], p[2], qn_num_from_int(ctx, -1)};
   int sign = qn_num_sign(qn_num_dot(ctx, 4, x, y));
@@ -96,7 +99,7 @@ size_t qn_polyhedron_face(qn_ctx *ctx, const qn_num plane[4], const qn_num *vert
   /* The corner after `here` is the one that has every other on its right: (next - here) x (other - here) . n < 0. */
   for (size_t k = 0; k + 1 < count; k++) {
     const qn_num *here = vertices + (size_t)3 * corners[k];
-    for (size_t j = k + 2; j < count; j++) {
+    for (size_t j = k + 2; j < count && qn_ctx_spend(ctx, 1, EFFORT_TURN); j++) {
       qn_mark mark = qn_arena_mark(&ctx->arena);
       const qn_num *next = vertices + (size_t)3 * corners[k + 1], *other = vertices + (size_t)3 * corners[j];
       qn_num d[3], e[3], cross[3];
@@ -333,12 +336,15 @@ static int find_planes(body *b) {
       }
     }
     int below = 0, above = 0;
-    for (size_t i = 0; i < b->point_count && !(below && above); i++) {
+    for (size_t i = 0; i < b->point_count && !(below && above) && !b->ctx->failed; i++) {
       if (b->used[i]) {
         int s = side(b->ctx, plane, b->points + 3 * i);
         below |= s < 0;
         above |= s > 0;
       }
+    }
+    if (b->ctx->failed) {
+      return 0;
     }
     if (below && above) {
       qn_arg_tell(b->call, QN_Q0510, FACES, "points lie on both sides of a face; only convex polyhedra are supported yet",
@@ -411,21 +417,21 @@ static uint32_t finish(body *b) {
     return QN_NO_NODE;
   }
   qn_num *vertices = out + 2 + 4 * n;
-  for (size_t i = 0; i < b->point_count; i++) {
+  for (size_t i = 0; i < b->point_count && !b->ctx->failed; i++) {
     if (b->used[i] && is_corner(b, b->points + 3 * i)) {
       memcpy(vertices + 3 * m++, b->points + 3 * i, 3 * sizeof *vertices);
     }
   }
   out[0] = qn_num_from_int(b->ctx, (int64_t)n);
   out[1] = qn_num_from_int(b->ctx, (int64_t)m);
-  for (size_t f = 0; f < n; f++) {
+  for (size_t f = 0; f < n && !b->ctx->failed; f++) {
     memcpy(out + 2 + 4 * f, b->planes + 4 * f, 4 * sizeof *out);
     size_t count = qn_polyhedron_face(b->ctx, b->planes + 4 * f, vertices, m, corners);
     if (count >= 3) {
       plane_of(b->ctx, vertices, corners, count, out + 2 + 4 * f);
     }
   }
-  return qn_call_leaf(b->call, QN_POLYHEDRON, out, 2 + 4 * n + 3 * m);
+  return b->ctx->failed ? QN_NO_NODE : qn_call_leaf(b->call, QN_POLYHEDRON, out, 2 + 4 * n + 3 * m);
 }
 
 uint32_t qn_make_polyhedron(qn_call *call) {
@@ -433,5 +439,5 @@ uint32_t qn_make_polyhedron(qn_call *call) {
   if (read_points(&b) && find_same(&b) && read_faces(&b) && closed(&b) && find_planes(&b)) {
     return finish(&b);
   }
-  return call->ev->failed ? QN_NO_NODE : qn_call_leaf(call, QN_POLYHEDRON, NULL, 0);
+  return call->ev->failed || call->ev->ctx.failed ? QN_NO_NODE : qn_call_leaf(call, QN_POLYHEDRON, NULL, 0);
 }

@@ -265,7 +265,7 @@ static void leaf(printer *p, const qn_node *d) {
 }
 
 static void head(printer *p, const qn_node *d) {
-  const qn_num *a = p->m->numbers + d->number0;
+  const qn_num *a = d->numbers ? p->m->numbers + d->number0 : NULL;
   say(p, d->flags & QN_MOD_BACKGROUND ? "%" : "");
   say(p, d->flags & QN_MOD_HIGHLIGHT ? "#" : "");
   say(p, d->flags & QN_MOD_ONLY ? "!" : "");

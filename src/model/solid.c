@@ -182,7 +182,7 @@ static void mirror(qn_ctx *ctx, const qn_num v[3], qn_num m[12]) {
 
 void qn_solid_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num map[12]) {
   const qn_node *d = &model->nodes[node];
-  const qn_num *v = model->numbers + d->number0;
+  const qn_num *v = d->numbers ? model->numbers + d->number0 : NULL;
   for (size_t i = 0; i < 12; i++) {
     map[i] = i % 5 == 0 ? QN_NUM_ONE : QN_NUM_ZERO;
   }

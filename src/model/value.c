@@ -59,9 +59,9 @@ int qn_value_equal(qn_ctx *ctx, qn_value a, qn_value b) {
   case QN_V_BOOL: return a.u.truth == b.u.truth;
   case QN_V_NUMBER: return qn_num_cmp(ctx, a.u.number, b.u.number) == 0;
   case QN_V_SPECIAL: return a.u.special == b.u.special;
-  case QN_V_STRING: return a.count == b.count && memcmp(a.u.text, b.u.text, a.count) == 0;
+  case QN_V_STRING: return a.count == b.count && qn_ctx_spend(ctx, a.count, 1) && memcmp(a.u.text, b.u.text, a.count) == 0;
   case QN_V_VECTOR:
-    if (a.count != b.count) {
+    if (a.count != b.count || !qn_ctx_spend(ctx, a.count, QN_EFFORT_ELEMENT / 4)) {
       return 0;
     }
     for (size_t i = 0; i < a.count; i++) {

@@ -11,6 +11,7 @@ void qn_ctx_init(qn_ctx *ctx, qn_mem *mem) {
   qn_arena_init(&ctx->arena, mem);
   ctx->failed = QUOIN_OK;
   ctx->max_bits = 0;
+  ctx->effort = ctx->max_effort = 0;
 }
 
 void qn_ctx_free(qn_ctx *ctx) {
@@ -23,7 +24,22 @@ void qn_ctx_fail_(qn_ctx *ctx, quoin_status status) {
   }
 }
 
+int qn_ctx_spend(qn_ctx *ctx, size_t count, unsigned each) {
+  const uint64_t most = UINT64_C(1) << 48; /* sums of these do not overflow before they are looked at */
+  uint64_t effort = count < most / each ? (uint64_t)count * each : most;
+  ctx->effort += effort;
+  if (QN_UNLIKELY(ctx->max_effort != 0 && ctx->effort > ctx->max_effort)) {
+    ctx->effort = ctx->max_effort + 1;
+    qn_ctx_fail_(ctx, QUOIN_E_LIMIT);
+    return 0;
+  }
+  return 1;
+}
+
 mp_limb_t *qn_limbs_take_(qn_ctx *ctx, size_t limbs) {
+  if (QN_UNLIKELY(limbs > 8) && ctx->max_effort != 0 && !qn_ctx_spend(ctx, limbs, (unsigned)(limbs < UINT32_MAX ? limbs : UINT32_MAX))) {
+    return NULL;
+  }
   mp_limb_t *d = limbs <= LARGEST ? qn_arena_take(&ctx->arena, limbs * sizeof *d) : NULL;
   if (QN_UNLIKELY(!d)) {
     qn_ctx_fail_(ctx, QUOIN_E_MEMORY);

@@ -21,10 +21,14 @@ typedef struct qn_ctx {
   qn_arena arena;
   quoin_status failed; /* QUOIN_OK, QUOIN_E_MEMORY or QUOIN_E_LIMIT */
   size_t max_bits;     /* a larger result fails with QUOIN_E_LIMIT; 0: none */
+  uint64_t effort;     /* what was done: the square of the limbs of every result, which bounds its cost, and what else is spent */
+  uint64_t max_effort; /* more fails with QUOIN_E_LIMIT; 0: none */
 } qn_ctx;
 
 void qn_ctx_init(qn_ctx *ctx, qn_mem *mem);
 void qn_ctx_free(qn_ctx *ctx);
+
+int qn_ctx_spend(qn_ctx *ctx, size_t count, unsigned each); /* count things of so much effort; 0 when that is too much, and the context has failed */
 
 qn_int qn_int_from(qn_ctx *ctx, int64_t v);
 qn_int qn_int_from_limbs(qn_ctx *ctx, const mp_limb_t *limbs, mp_size_t n, int negative); /* copies, strips leading zeros */

@@ -77,7 +77,7 @@ static quoin_status together(const quoin_scene *scene, quoin_work *work, size_t 
   quoin_status status = qn_sheaf_rays(work, n, rays, NULL, NULL, NULL, &sure);
   for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
     const qn_sheaf *sheaf = work->sheaf;
-    quoin_intervals one = {sheaf->first[i + 1] - sheaf->first[i], sheaf->found + sheaf->first[i], 0, work->boundary, 0, work->contacts};
+    quoin_intervals one = {sheaf->first[i + 1] - sheaf->first[i], sheaf->found ? sheaf->found + sheaf->first[i] : NULL, 0, work->boundary, 0, work->contacts};
     if (!(sure >> i & 1)) {
       status = quoin_ray_intervals(scene, work, &rays[i], want, &one);
     }
@@ -274,7 +274,7 @@ quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, quoin_work 
       const qn_sheaf *sheaf = work->sheaf;
       quoin_intervals one = {0};
       if (sure >> i & 1) {
-        one = (quoin_intervals){sheaf->first[i + 1] - sheaf->first[i], sheaf->found + sheaf->first[i], 0, work->boundary, 0, work->contacts};
+        one = (quoin_intervals){sheaf->first[i + 1] - sheaf->first[i], sheaf->found ? sheaf->found + sheaf->first[i] : NULL, 0, work->boundary, 0, work->contacts};
       } else {
         status = quoin_ray_intervals_text(scene, work, rays + 6 * (at + i), from, to, want, &one);
       }

@@ -64,7 +64,8 @@
   X(Q0906, QUOIN_ERROR, "too many primitives") \
   X(Q0907, QUOIN_ERROR, "too many faces") \
   X(Q0908, QUOIN_NOTE, "too many errors; the rest of the file was not read") \
-  X(Q0909, QUOIN_NOTE, "more diagnostics of one kind than are shown")
+  X(Q0909, QUOIN_NOTE, "more diagnostics of one kind than are shown") \
+  X(Q0910, QUOIN_ERROR, "too much arithmetic")
 
 typedef enum qn_code {
 #define X(code, severity, meaning) QN_##code,

@@ -1,0 +1,1 @@
+cube(1);sphere(2); // ccube(3);

@@ -1,0 +1,1 @@
+a=[1,1];b=[a,a];c=[b,b];d=[c,c];e=[d,d];f=[e,e];g=[f,f];h=[g,g];i=[h,h];cube(len(i));x=i+i;

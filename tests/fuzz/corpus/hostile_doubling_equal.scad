@@ -1,0 +1,1 @@
+a=[1,1];A=[1,1];b=[a,a];B=[A,A];c=[b,b];C=[B,B];d=[c,c];D=[C,C];e=[d,d];E=[D,D];f=[e,e];F=[E,E];g=[f,f];G=[F,F];h=[g,g];H=[G,G];i=[h,h];I=[H,H];x=(i==I);cube(1);

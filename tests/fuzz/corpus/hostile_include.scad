@@ -1,0 +1,3 @@
+include <hostile_include.scad>
+use <hostile_include.scad>
+cube(1);

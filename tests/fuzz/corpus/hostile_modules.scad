@@ -1,0 +1,1 @@
+module a(){b();b();}module b(){a();a();}a();for(i=[0:1e9])cube(i);

@@ -1,0 +1,1 @@
+a=3;b=a*a;c=b*b;d=c*c;e=d*d;f=e*e;g=f*f;h=g*g;i=h*h;j=i*i;k=j*j;l=k*k;m=l*l;cube(1);

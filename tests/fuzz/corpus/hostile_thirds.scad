@@ -1,0 +1,1 @@
+a=1/3;b=a*a+a/7;c=b*b+b/7;d=c*c+c/7;e=d*d+d/7;f=e*e+e/7;g=f*f+f/7;h=g*g+g/7;i=h*h+h/7;cube(i);

@@ -1,0 +1,123 @@
+// A Menger sponge of level 3: a cube minus 219 square holes, each from face to face, so every face is flush with others.
+// Its side is 2.7 and the holes are 0.9, 0.3 and 0.1 wide: decimals that doubles cannot spell; here they meet exactly.
+// OpenSCAD reads this file as well.
+difference() {
+  color([0.85, 0.74, 0.56]) cube(2.7);
+  color([0.72, 0.40, 0.30]) { // holes of level 1
+    translate([0, 0.9, 0.9]) cube([2.7, 0.9, 0.9]);
+    translate([0.9, 0, 0.9]) cube([0.9, 2.7, 0.9]);
+    translate([0.9, 0.9, 0]) cube([0.9, 0.9, 2.7]);
+  }
+  color([0.35, 0.50, 0.54]) { // holes of level 2
+    translate([0, 0.3, 0.3]) cube([2.7, 0.3, 0.3]); translate([0, 0.3, 1.2]) cube([2.7, 0.3, 0.3]);
+    translate([0, 0.3, 2.1]) cube([2.7, 0.3, 0.3]); translate([0, 1.2, 0.3]) cube([2.7, 0.3, 0.3]);
+    translate([0, 1.2, 2.1]) cube([2.7, 0.3, 0.3]); translate([0, 2.1, 0.3]) cube([2.7, 0.3, 0.3]);
+    translate([0, 2.1, 1.2]) cube([2.7, 0.3, 0.3]); translate([0, 2.1, 2.1]) cube([2.7, 0.3, 0.3]);
+    translate([0.3, 0, 0.3]) cube([0.3, 2.7, 0.3]); translate([0.3, 0, 1.2]) cube([0.3, 2.7, 0.3]);
+    translate([0.3, 0, 2.1]) cube([0.3, 2.7, 0.3]); translate([1.2, 0, 0.3]) cube([0.3, 2.7, 0.3]);
+    translate([1.2, 0, 2.1]) cube([0.3, 2.7, 0.3]); translate([2.1, 0, 0.3]) cube([0.3, 2.7, 0.3]);
+    translate([2.1, 0, 1.2]) cube([0.3, 2.7, 0.3]); translate([2.1, 0, 2.1]) cube([0.3, 2.7, 0.3]);
+    translate([0.3, 0.3, 0]) cube([0.3, 0.3, 2.7]); translate([0.3, 1.2, 0]) cube([0.3, 0.3, 2.7]);
+    translate([0.3, 2.1, 0]) cube([0.3, 0.3, 2.7]); translate([1.2, 0.3, 0]) cube([0.3, 0.3, 2.7]);
+    translate([1.2, 2.1, 0]) cube([0.3, 0.3, 2.7]); translate([2.1, 0.3, 0]) cube([0.3, 0.3, 2.7]);
+    translate([2.1, 1.2, 0]) cube([0.3, 0.3, 2.7]); translate([2.1, 2.1, 0]) cube([0.3, 0.3, 2.7]);
+  }
+  color([0.55, 0.60, 0.48]) { // holes of level 3
+    translate([0, 0.1, 0.1]) cube([2.7, 0.1, 0.1]); translate([0, 0.1, 0.4]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.1, 0.7]) cube([2.7, 0.1, 0.1]); translate([0, 0.1, 1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.1, 1.3]) cube([2.7, 0.1, 0.1]); translate([0, 0.1, 1.6]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.1, 1.9]) cube([2.7, 0.1, 0.1]); translate([0, 0.1, 2.2]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.1, 2.5]) cube([2.7, 0.1, 0.1]); translate([0, 0.4, 0.1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.4, 0.7]) cube([2.7, 0.1, 0.1]); translate([0, 0.4, 1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.4, 1.6]) cube([2.7, 0.1, 0.1]); translate([0, 0.4, 1.9]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.4, 2.5]) cube([2.7, 0.1, 0.1]); translate([0, 0.7, 0.1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.7, 0.4]) cube([2.7, 0.1, 0.1]); translate([0, 0.7, 0.7]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.7, 1]) cube([2.7, 0.1, 0.1]); translate([0, 0.7, 1.3]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.7, 1.6]) cube([2.7, 0.1, 0.1]); translate([0, 0.7, 1.9]) cube([2.7, 0.1, 0.1]);
+    translate([0, 0.7, 2.2]) cube([2.7, 0.1, 0.1]); translate([0, 0.7, 2.5]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1, 0.1]) cube([2.7, 0.1, 0.1]); translate([0, 1, 0.4]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1, 0.7]) cube([2.7, 0.1, 0.1]); translate([0, 1, 1.9]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1, 2.2]) cube([2.7, 0.1, 0.1]); translate([0, 1, 2.5]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.3, 0.1]) cube([2.7, 0.1, 0.1]); translate([0, 1.3, 0.7]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.3, 1.9]) cube([2.7, 0.1, 0.1]); translate([0, 1.3, 2.5]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.6, 0.1]) cube([2.7, 0.1, 0.1]); translate([0, 1.6, 0.4]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.6, 0.7]) cube([2.7, 0.1, 0.1]); translate([0, 1.6, 1.9]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.6, 2.2]) cube([2.7, 0.1, 0.1]); translate([0, 1.6, 2.5]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.9, 0.1]) cube([2.7, 0.1, 0.1]); translate([0, 1.9, 0.4]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.9, 0.7]) cube([2.7, 0.1, 0.1]); translate([0, 1.9, 1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.9, 1.3]) cube([2.7, 0.1, 0.1]); translate([0, 1.9, 1.6]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.9, 1.9]) cube([2.7, 0.1, 0.1]); translate([0, 1.9, 2.2]) cube([2.7, 0.1, 0.1]);
+    translate([0, 1.9, 2.5]) cube([2.7, 0.1, 0.1]); translate([0, 2.2, 0.1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.2, 0.7]) cube([2.7, 0.1, 0.1]); translate([0, 2.2, 1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.2, 1.6]) cube([2.7, 0.1, 0.1]); translate([0, 2.2, 1.9]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.2, 2.5]) cube([2.7, 0.1, 0.1]); translate([0, 2.5, 0.1]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.5, 0.4]) cube([2.7, 0.1, 0.1]); translate([0, 2.5, 0.7]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.5, 1]) cube([2.7, 0.1, 0.1]); translate([0, 2.5, 1.3]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.5, 1.6]) cube([2.7, 0.1, 0.1]); translate([0, 2.5, 1.9]) cube([2.7, 0.1, 0.1]);
+    translate([0, 2.5, 2.2]) cube([2.7, 0.1, 0.1]); translate([0, 2.5, 2.5]) cube([2.7, 0.1, 0.1]);
+    translate([0.1, 0, 0.1]) cube([0.1, 2.7, 0.1]); translate([0.1, 0, 0.4]) cube([0.1, 2.7, 0.1]);
+    translate([0.1, 0, 0.7]) cube([0.1, 2.7, 0.1]); translate([0.1, 0, 1]) cube([0.1, 2.7, 0.1]);
+    translate([0.1, 0, 1.3]) cube([0.1, 2.7, 0.1]); translate([0.1, 0, 1.6]) cube([0.1, 2.7, 0.1]);
+    translate([0.1, 0, 1.9]) cube([0.1, 2.7, 0.1]); translate([0.1, 0, 2.2]) cube([0.1, 2.7, 0.1]);
+    translate([0.1, 0, 2.5]) cube([0.1, 2.7, 0.1]); translate([0.4, 0, 0.1]) cube([0.1, 2.7, 0.1]);
+    translate([0.4, 0, 0.7]) cube([0.1, 2.7, 0.1]); translate([0.4, 0, 1]) cube([0.1, 2.7, 0.1]);
+    translate([0.4, 0, 1.6]) cube([0.1, 2.7, 0.1]); translate([0.4, 0, 1.9]) cube([0.1, 2.7, 0.1]);
+    translate([0.4, 0, 2.5]) cube([0.1, 2.7, 0.1]); translate([0.7, 0, 0.1]) cube([0.1, 2.7, 0.1]);
+    translate([0.7, 0, 0.4]) cube([0.1, 2.7, 0.1]); translate([0.7, 0, 0.7]) cube([0.1, 2.7, 0.1]);
+    translate([0.7, 0, 1]) cube([0.1, 2.7, 0.1]); translate([0.7, 0, 1.3]) cube([0.1, 2.7, 0.1]);
+    translate([0.7, 0, 1.6]) cube([0.1, 2.7, 0.1]); translate([0.7, 0, 1.9]) cube([0.1, 2.7, 0.1]);
+    translate([0.7, 0, 2.2]) cube([0.1, 2.7, 0.1]); translate([0.7, 0, 2.5]) cube([0.1, 2.7, 0.1]);
+    translate([1, 0, 0.1]) cube([0.1, 2.7, 0.1]); translate([1, 0, 0.4]) cube([0.1, 2.7, 0.1]);
+    translate([1, 0, 0.7]) cube([0.1, 2.7, 0.1]); translate([1, 0, 1.9]) cube([0.1, 2.7, 0.1]);
+    translate([1, 0, 2.2]) cube([0.1, 2.7, 0.1]); translate([1, 0, 2.5]) cube([0.1, 2.7, 0.1]);
+    translate([1.3, 0, 0.1]) cube([0.1, 2.7, 0.1]); translate([1.3, 0, 0.7]) cube([0.1, 2.7, 0.1]);
+    translate([1.3, 0, 1.9]) cube([0.1, 2.7, 0.1]); translate([1.3, 0, 2.5]) cube([0.1, 2.7, 0.1]);
+    translate([1.6, 0, 0.1]) cube([0.1, 2.7, 0.1]); translate([1.6, 0, 0.4]) cube([0.1, 2.7, 0.1]);
+    translate([1.6, 0, 0.7]) cube([0.1, 2.7, 0.1]); translate([1.6, 0, 1.9]) cube([0.1, 2.7, 0.1]);
+    translate([1.6, 0, 2.2]) cube([0.1, 2.7, 0.1]); translate([1.6, 0, 2.5]) cube([0.1, 2.7, 0.1]);
+    translate([1.9, 0, 0.1]) cube([0.1, 2.7, 0.1]); translate([1.9, 0, 0.4]) cube([0.1, 2.7, 0.1]);
+    translate([1.9, 0, 0.7]) cube([0.1, 2.7, 0.1]); translate([1.9, 0, 1]) cube([0.1, 2.7, 0.1]);
+    translate([1.9, 0, 1.3]) cube([0.1, 2.7, 0.1]); translate([1.9, 0, 1.6]) cube([0.1, 2.7, 0.1]);
+    translate([1.9, 0, 1.9]) cube([0.1, 2.7, 0.1]); translate([1.9, 0, 2.2]) cube([0.1, 2.7, 0.1]);
+    translate([1.9, 0, 2.5]) cube([0.1, 2.7, 0.1]); translate([2.2, 0, 0.1]) cube([0.1, 2.7, 0.1]);
+    translate([2.2, 0, 0.7]) cube([0.1, 2.7, 0.1]); translate([2.2, 0, 1]) cube([0.1, 2.7, 0.1]);
+    translate([2.2, 0, 1.6]) cube([0.1, 2.7, 0.1]); translate([2.2, 0, 1.9]) cube([0.1, 2.7, 0.1]);
+    translate([2.2, 0, 2.5]) cube([0.1, 2.7, 0.1]); translate([2.5, 0, 0.1]) cube([0.1, 2.7, 0.1]);
+    translate([2.5, 0, 0.4]) cube([0.1, 2.7, 0.1]); translate([2.5, 0, 0.7]) cube([0.1, 2.7, 0.1]);
+    translate([2.5, 0, 1]) cube([0.1, 2.7, 0.1]); translate([2.5, 0, 1.3]) cube([0.1, 2.7, 0.1]);
+    translate([2.5, 0, 1.6]) cube([0.1, 2.7, 0.1]); translate([2.5, 0, 1.9]) cube([0.1, 2.7, 0.1]);
+    translate([2.5, 0, 2.2]) cube([0.1, 2.7, 0.1]); translate([2.5, 0, 2.5]) cube([0.1, 2.7, 0.1]);
+    translate([0.1, 0.1, 0]) cube([0.1, 0.1, 2.7]); translate([0.1, 0.4, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.1, 0.7, 0]) cube([0.1, 0.1, 2.7]); translate([0.1, 1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.1, 1.3, 0]) cube([0.1, 0.1, 2.7]); translate([0.1, 1.6, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.1, 1.9, 0]) cube([0.1, 0.1, 2.7]); translate([0.1, 2.2, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.1, 2.5, 0]) cube([0.1, 0.1, 2.7]); translate([0.4, 0.1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.4, 0.7, 0]) cube([0.1, 0.1, 2.7]); translate([0.4, 1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.4, 1.6, 0]) cube([0.1, 0.1, 2.7]); translate([0.4, 1.9, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.4, 2.5, 0]) cube([0.1, 0.1, 2.7]); translate([0.7, 0.1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.7, 0.4, 0]) cube([0.1, 0.1, 2.7]); translate([0.7, 0.7, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.7, 1, 0]) cube([0.1, 0.1, 2.7]); translate([0.7, 1.3, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.7, 1.6, 0]) cube([0.1, 0.1, 2.7]); translate([0.7, 1.9, 0]) cube([0.1, 0.1, 2.7]);
+    translate([0.7, 2.2, 0]) cube([0.1, 0.1, 2.7]); translate([0.7, 2.5, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1, 0.1, 0]) cube([0.1, 0.1, 2.7]); translate([1, 0.4, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1, 0.7, 0]) cube([0.1, 0.1, 2.7]); translate([1, 1.9, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1, 2.2, 0]) cube([0.1, 0.1, 2.7]); translate([1, 2.5, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.3, 0.1, 0]) cube([0.1, 0.1, 2.7]); translate([1.3, 0.7, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.3, 1.9, 0]) cube([0.1, 0.1, 2.7]); translate([1.3, 2.5, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.6, 0.1, 0]) cube([0.1, 0.1, 2.7]); translate([1.6, 0.4, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.6, 0.7, 0]) cube([0.1, 0.1, 2.7]); translate([1.6, 1.9, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.6, 2.2, 0]) cube([0.1, 0.1, 2.7]); translate([1.6, 2.5, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.9, 0.1, 0]) cube([0.1, 0.1, 2.7]); translate([1.9, 0.4, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.9, 0.7, 0]) cube([0.1, 0.1, 2.7]); translate([1.9, 1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.9, 1.3, 0]) cube([0.1, 0.1, 2.7]); translate([1.9, 1.6, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.9, 1.9, 0]) cube([0.1, 0.1, 2.7]); translate([1.9, 2.2, 0]) cube([0.1, 0.1, 2.7]);
+    translate([1.9, 2.5, 0]) cube([0.1, 0.1, 2.7]); translate([2.2, 0.1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.2, 0.7, 0]) cube([0.1, 0.1, 2.7]); translate([2.2, 1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.2, 1.6, 0]) cube([0.1, 0.1, 2.7]); translate([2.2, 1.9, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.2, 2.5, 0]) cube([0.1, 0.1, 2.7]); translate([2.5, 0.1, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.5, 0.4, 0]) cube([0.1, 0.1, 2.7]); translate([2.5, 0.7, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.5, 1, 0]) cube([0.1, 0.1, 2.7]); translate([2.5, 1.3, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.5, 1.6, 0]) cube([0.1, 0.1, 2.7]); translate([2.5, 1.9, 0]) cube([0.1, 0.1, 2.7]);
+    translate([2.5, 2.2, 0]) cube([0.1, 0.1, 2.7]); translate([2.5, 2.5, 0]) cube([0.1, 0.1, 2.7]);
+  }
+}

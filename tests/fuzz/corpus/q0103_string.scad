@@ -1,0 +1,2 @@
+name("open) cube(1);
+sphere(wrong);

@@ -1,0 +1,3 @@
+cube(1);
+/* no end
+sphere(2);

@@ -1,0 +1,4 @@
+union() {
+  cube(1)
+}
+sphere(2);

@@ -1,0 +1,4 @@
+width = 4;
+cube(widht);
+sphere(radius);
+cube(sphere);

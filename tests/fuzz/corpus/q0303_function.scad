@@ -1,0 +1,3 @@
+cube(sqr(4));
+cube(sphere(4));
+cube(nothing_like_it(1));

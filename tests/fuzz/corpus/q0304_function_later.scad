@@ -1,0 +1,1 @@
+cube(len(str(4)));

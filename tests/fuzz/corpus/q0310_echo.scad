@@ -1,0 +1,2 @@
+echo("v", v = [1, 1 / 3, "x"], true, undef, 1 / 0);
+cube(1);

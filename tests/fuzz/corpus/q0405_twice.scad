@@ -1,0 +1,2 @@
+cube(1, size = 2);
+sphere(r = 1, r = 2);

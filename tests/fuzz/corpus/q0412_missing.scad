@@ -1,0 +1,10 @@
+translate() cube(1);
+quadric();
+hyperboloid(h = 2, r = 2);
+hyperboloid(h = 2, r = 2, rc = 1, gap = 1);
+camera();
+light();
+name() cube(1);
+polyhedron();
+background();
+scale() cube(1);

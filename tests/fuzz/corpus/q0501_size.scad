@@ -1,0 +1,11 @@
+cube(0);
+cube([1, -2, 3]);
+sphere(-1);
+cylinder(h = 0, r = 1);
+cylinder(h = 1, r = 0);
+cylinder(h = 1, r1 = -1, r2 = 1);
+cylinder(h = 1, r1 = 0, r2 = 1);
+ellipsoid([1, 0, 1]);
+paraboloid(h = -1);
+saddle(0, 1);
+superquadric(r = 0);

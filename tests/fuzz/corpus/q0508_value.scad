@@ -1,0 +1,10 @@
+halfspace([0, 0, 0], 1);
+cylinder(h = 1, axis = [0, 0, 0]);
+hyperboloid(h = 1, r = 1, gap = 1);
+superquadric(e = -1);
+camera(eye = [1, 1, 1], fov = 180);
+camera(eye = [1, 1, 1], look = [1, 1, 1]);
+camera(eye = [1, 1, 1], projection = "fish");
+light(direction = [0, 0, 0]);
+material(ambient = -1) cube(1);
+light(at = [1 / 0, 0, 0]);

@@ -1,0 +1,2 @@
+translate([1e12,0,0])scale(1e-9)sphere(1);
+//@OOOOOSKOOSOOOPQSTUSSSKKKOSOOSOWOOKOO

@@ -1,0 +1,2 @@
+intersection(){saddle(1,1);cube(3,center=true);}
+//@OOOOOSKOOSOOOPQSTUSSSKKKOSOOSOWOOKOO

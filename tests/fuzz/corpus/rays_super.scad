@@ -1,0 +1,2 @@
+difference(){superquadric([1,2,1],0.5,1.5);sphere(0.5);}
+//@OOOOOSKOOSOOOPQSTUSSSKKKOSOOSOWOOKOO

@@ -1,0 +1,3 @@
+difference() {
+  cube([1, 2, 3]);
+  translate([0, 0,
