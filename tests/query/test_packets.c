@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 static size_t model_count = 400;
-static uint64_t first_seed = 0x9e3779b97f4a7c15u;
+static uint64_t first_seed = 14;
 
 typedef struct truth { int status, found, leaving, blocked; uint32_t part, surface, role; double t; } truth;
 
@@ -392,10 +392,10 @@ static void print_census(const char *title, const char *const *names, const shar
 
 static void random_models(void **state) {
   (void)state;
-  dice d = {first_seed};
   for (size_t n = 0; n < model_count && failures < failures_shown; n++) {
+    dice d = dice_of(first_seed, n);
     static char text[40000];
-    kind k = {roll(&d, MODELS), 0, roll(&d, 3) ? 0 : roll(&d, FRAMES)};
+    kind k = {(int)(n % MODELS), 0, roll(&d, 3) ? 0 : roll(&d, FRAMES)};
     frame f;
     make_frame(&d, k.frame, &f);
     write_model(&d, k.model, &f, text, sizeof text);
@@ -403,7 +403,8 @@ static void random_models(void **state) {
     ask_open(&a, text);
     for (int i = 0; i < 6; i++) {
       k.bundle = roll(&d, BUNDLES);
-      one_bundle(&d, &a, text, k, &f);
+      dice own = dice_of(d.state, (size_t)i);
+      one_bundle(&own, &a, text, k, &f);
     }
     k.bundle = roll(&d, 9);
     one_grid(&d, &a, text, k, &f);

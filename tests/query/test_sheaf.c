@@ -259,9 +259,9 @@ static void report(const char *name, const share *s) {
 
 static void random_models(void **state) {
   (void)state;
-  dice d = {first_seed};
   static char text[20000];
   for (size_t n = 0; n < model_count; n++) {
+    dice d = dice_of(first_seed, n);
     frame f;
     int model = (int)(n % MODELS);
     make_frame(&d, roll(&d, 2) ? 0 : roll(&d, FRAMES), &f);
@@ -269,7 +269,8 @@ static void random_models(void **state) {
     ask a;
     ask_open(&a, text);
     for (int k = 0; k < 8; k++) {
-      one_bundle(&d, &a, text, model, roll(&d, BUNDLES), &f);
+      dice own = dice_of(d.state, (size_t)k);
+      one_bundle(&own, &a, text, model, roll(&d, BUNDLES), &f);
     }
     for (int k = 0; k < 3; k++) {
       some_decimals(&d, &a, text, model, roll(&d, BUNDLES), &f);
