@@ -1,6 +1,6 @@
 /* Stretches of a line that runs in surfaces (S7).
 
-   Between two events nothing changes along the line, so one point of a stretch stands for it. What the solid is next to it, with the
+   Between two events, or turns (turn.c), nothing changes along the line, so one point of a stretch stands for it. What the solid is next to it, with the
    surfaces in which the line runs as unknown sides, is the question of S6: inside if all realisable combinations of sides (cells) say
    so, outside likewise, else the stretch lies in the boundary.
 
@@ -352,9 +352,30 @@ static void take_seen(qn_scratch *s, const weaving *w, const size_t *ends, run *
   }
 }
 
+/* The side of the state between a and b. */
+static quoin_side side_of(qn_scratch *s, state *st, const qn_bound **a, const qn_bound **b, const qn_bound *from, const qn_bound *to) {
+  narrow(s, a, b, from, to);
+  return st->vague != 0 ? side_between(s, st, *a, *b) : s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
+}
+
+/* The turns that are left, and where a stretch from a place on ends: at the next of them, or at next. */
+typedef struct ahead { qn_turn *turns; size_t count, at; } ahead;
+
+static const qn_bound *stop_after(qn_scratch *s, ahead *h, const qn_bound *place, const qn_bound *next) {
+  while (h->at < h->count && qn_bound_cmp(s, &h->turns[h->at].at, place) <= 0) {
+    h->at++;
+  }
+  return h->at < h->count && qn_bound_cmp(s, &h->turns[h->at].at, next) < 0 ? &h->turns[h->at].at : next;
+}
+
 static void take_stretches(qn_scratch *s, const size_t *ends, run *r, const qn_bound *from, const qn_bound *to) {
   state st;
+  ahead turns = {0};
   if (!make_state(s, &st)) {
+    return;
+  }
+  if (!qn_find_turns(s, &turns.turns, &turns.count)) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
     return;
   }
   for (size_t i = 0, end; i < s->event_count && qn_scratch_status(s) == QUOIN_OK; i = end) {
@@ -362,16 +383,22 @@ static void take_stretches(qn_scratch *s, const size_t *ends, run *r, const qn_b
     for (size_t k = i; k < end; k++) {
       toggle(s, &st, &s->events[k], s->events[k].enter);
     }
-    const qn_bound *a = &s->events[i].at, *b = end < s->event_count ? &s->events[end].at : &END.at;
-    quoin_side now = s->weave.value ? QUOIN_INSIDE : QUOIN_OUTSIDE;
-    narrow(s, &a, &b, from, to);
-    if (st.vague != 0) {
-      now = side_between(s, &st, a, b);
-    }
+    const qn_bound *next = end < s->event_count ? &s->events[end].at : &END.at, *stop = stop_after(s, &turns, &s->events[i].at, next);
+    const qn_bound *a = &s->events[i].at, *b = stop;
+    quoin_side now = side_of(s, &st, &a, &b, from, to);
     if (now != r->side) {
       qn_point point;
       point_between(s, a, b, &point);
       change(s, r, &s->events[i + last_change(s, &st, &s->events[i], end - i, &point, now)], now, from, to);
+    }
+    while (stop != next && qn_scratch_status(s) == QUOIN_OK) {
+      const qn_event here = {*stop, turns.turns[turns.at].leaf, 0, 0};
+      stop = stop_after(s, &turns, &here.at, next);
+      a = &here.at, b = stop;
+      now = side_of(s, &st, &a, &b, from, to);
+      if (now != r->side) {
+        change(s, r, &here, now, from, to);
+      }
     }
   }
   qn_eval_reset(&s->weave);

@@ -34,7 +34,7 @@ int qn_bound_cmp_slow(qn_scratch *s, const qn_bound *a, const qn_bound *b) {
   if (x->kind == QN_SOLVED_EXACTLY && y->kind == QN_SOLVED_EXACTLY && !x->rational && !y->rational) {
     return by_double;
   }
-  if (x->kind == QN_SOLVED_SURFACE && y->kind == QN_SOLVED_SURFACE && x->surface == y->surface) {
+  if (x->kind == QN_SOLVED_SURFACE && y->kind == QN_SOLVED_SURFACE && x->surface == y->surface && x->surface != QN_NO_SURFACE) {
     return (a->which > b->which) - (a->which < b->which);
   }
   qn_root p = qn_bound_root(s, a), q = qn_bound_root(s, b);

@@ -171,6 +171,9 @@ static int round_in_doubles(const qn_exact_surface *form, const qn_line *line, d
 
 double qn_place_round(const quoin_scene *scene, qn_scratch *s, qn_line *line, const qn_place *place) {
   if (place->surface == QN_NO_SURFACE) {
+    if (place->turn) {
+      return qn_root_to_double(&s->ctx, (qn_root){place->turn, place->which});
+    }
     if (qn_int_sign(place->den) > 0) {
       return qn_rat_to_double(&s->ctx, place->num, place->den);
     }

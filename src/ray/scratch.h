@@ -128,6 +128,8 @@ const qn_quad *qn_solved_quad(qn_scratch *s, uint32_t solved);
 /* A bound for a place that is not a root found here. */
 qn_bound qn_bound_from_place(qn_scratch *s, const qn_place *place);
 qn_place qn_bound_place(const qn_scratch *s, const qn_bound *b);
+/* A bound for a root of a quadratic that lives as long as the question and is no surface's. */
+qn_bound qn_bound_from_root(qn_scratch *s, qn_root root);
 
 /* A finite double as num/den (line.c). */
 void qn_exact_double(qn_ctx *ctx, double v, qn_int *num, qn_int *den);
@@ -162,6 +164,11 @@ void qn_order_group(qn_scratch *s, qn_event *events, size_t n);
 /* The leaf's stretches in order, closed, of positive length, half-spaces in whose surface the line runs taken as satisfied
    (then *vague). They live until the next call. touches: places where half-spaces only meet are added to s->touches. */
 size_t qn_leaf_spans(qn_scratch *s, uint32_t leaf, int touches, const qn_span **spans, int *vague);
+
+/* --- turn.c: where what is beside a line in surfaces may change, though it crosses none ------------------------------- */
+typedef struct qn_turn { qn_bound at; uint32_t leaf; } qn_turn; /* at.half and leaf: of a surface that turns there */
+/* In order, from the events' leaves. 0: memory was refused; the context tells of other failures. */
+int qn_find_turns(qn_scratch *s, qn_turn **out, size_t *count);
 
 /* --- coplanar.c: stretches that run in surfaces (S7); contact.c ----------------------------------------------------- */
 void qn_weave_coplanar(qn_scratch *s, const qn_bound *from, const qn_bound *to);

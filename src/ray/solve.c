@@ -222,7 +222,8 @@ qn_bound qn_bound_from_place(qn_scratch *s, const qn_place *p) {
   }
   qn_solved *v = &s->solved[at];
   v->surface = p->surface;
-  v->kind = p->surface == QN_NO_SURFACE ? QN_SOLVED_EXACTLY : QN_SOLVED_SURFACE;
+  v->kind = p->surface == QN_NO_SURFACE && !p->turn ? QN_SOLVED_EXACTLY : QN_SOLVED_SURFACE;
+  v->quad = p->turn;
   if (qn_int_sign(p->den) > 0) {
     v->rational = 1;
     v->num = p->num;
@@ -234,6 +235,12 @@ qn_bound qn_bound_from_place(qn_scratch *s, const qn_place *p) {
   return b;
 }
 
+qn_bound qn_bound_from_root(qn_scratch *s, qn_root root) {
+  qn_root_at at = nearest(&s->ctx, root);
+  const qn_place place = {.t = at.t, .e = at.e, .surface = QN_NO_SURFACE, .which = root.which, .turn = root.q};
+  return qn_bound_from_place(s, &place);
+}
+
 qn_place qn_bound_place(const qn_scratch *s, const qn_bound *b) {
   qn_place p = {.t = b->t, .e = b->e, .surface = QN_NO_SURFACE};
   if (b->solved != QN_NO_SOLVED) {
@@ -241,6 +248,7 @@ qn_place qn_bound_place(const qn_scratch *s, const qn_bound *b) {
     if (v->kind == QN_SOLVED_SURFACE) {
       p.surface = v->surface;
       p.which = (int)b->which;
+      p.turn = v->surface == QN_NO_SURFACE ? v->quad : NULL;
     } else if (v->rational) {
       p.num = v->num;
       p.den = v->den;

@@ -14,6 +14,7 @@ typedef struct qn_place {
   uint32_t surface;   /* QN_NO_SURFACE: the place is exactly t, or the rational num/den */
   int which;          /* the root's index */
   qn_int num, den;    /* for a rational end given as a decimal */
+  const qn_quad *turn; /* with QN_NO_SURFACE: the place is this quadratic's root (turn.c); lives until the next question */
 } qn_place;
 #define QN_NO_SURFACE UINT32_MAX
 

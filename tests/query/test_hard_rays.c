@@ -144,6 +144,14 @@ static const hard HARD[] = {
   {"18 b", "quadric([1,1,-1,0,0,0,0,0,0,-1]);", {"2", "0", "0", "3", "4", "5"}, 1, 0, {MINUS_INF, T("-0.25")}, {{0}}},
   {"19", "quadric([1,1,-1,0,0,0,0,0,0,1]);", {"0", "0", "0", "0", "0", "1"}, 2, 0, {MINUS_INF, T("-1"), T("1"), INF}, {{0}}},
   {"20", "quadric([1,1,1000000000000,0,0,0,0,0,0,-1]);", {"-5", "0", "0.000001", "1", "0", "0"}, 0, 0, {{0}}, {{0}}},
+  /* In surfaces, with a turn (src/ray/turn.c): an apex; two; one curvature (cone minus cylinder, x - z <= -y2/2t against -y2/4); tangent planes that are one,
+     at a rational place (xy <= z <= 2y) and at an irrational one (xy <= z, xz <= 2y, y >= 0). */
+  {"21 a", "intersection() { quadric([1,1,-1,0,0,0,0,0,0,0]); halfspace(n=[1,0,-1],d=0); }", {"-5", "0", "-5", "1", "0", "1"}, 0, 1, {{0}}, {T("5"), INF}},
+  {"21 b", "intersection() { quadric([1,1,-1,0,0,0,0,0,0,0]); translate([6,8,10]) quadric([1,1,-1,0,0,0,0,0,0,0]); }", {"0", "0", "0", "3", "4", "5"}, 0, 2, {{0}}, {MINUS_INF, T("0"), T("2"), INF}},
+  {"21 c", "difference() { quadric([1,1,-1,0,0,0,0,0,0,0]); quadric([1,1,1,0,-2,0,4,0,-4,0]); }", {"0", "0", "0", "1", "0", "1"}, 0, 2, {{0}}, {MINUS_INF, T("0"), T("2"), INF}},
+  {"21 d", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); halfspace(n=[0,-2,1],d=0); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1, {{0}}, {MINUS_INF, T("2")}},
+  {"21 e", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); quadric([0,0,0,0,1,0,0,-2,0,0]); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1, {{0}},
+   {MINUS_INF, {"0", 1, "2"}}},
 };
 #define HARD_COUNT (sizeof HARD / sizeof *HARD)
 

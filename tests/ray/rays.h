@@ -54,7 +54,7 @@ QN_UNUSED static qn_num number_of(qn_ctx *ctx, const char *text) {
   return n;
 }
 
-static const qn_range WHOLE_LINE = {{-HUGE_VAL, 0, QN_NO_SURFACE, 0, {0, NULL}, {0, NULL}}, {HUGE_VAL, 0, QN_NO_SURFACE, 0, {0, NULL}, {0, NULL}}};
+static const qn_range WHOLE_LINE = {{.t = -HUGE_VAL, .surface = QN_NO_SURFACE}, {.t = HUGE_VAL, .surface = QN_NO_SURFACE}};
 
 QN_UNUSED static void add_number(char *out, size_t size, double t) {
   size_t n = strlen(out);

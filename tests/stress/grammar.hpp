@@ -8,6 +8,7 @@ namespace stress {
 struct Style {
   bool dyadic = true;
   Census *census = nullptr;
+  int motif = -1; // of all models; -1: any
   void note(const char *group, const std::string &kind) const {
     if (census) census->count(group, kind);
   }
@@ -157,8 +158,8 @@ inline Spec simple(Shape::Kind k, std::vector<Q> p, bool center = false) {
 // Coincidences made on purpose, of about n leaves.
 inline Spec a_motif(Random &r, const Style &st, int n) {
   Q a = a_size(r, st), b = a_size(r, st), c = a_size(r, st);
-  static const char *const motifs[] = {"flush cuts", "stacked", "inscribed", "meeting in circles", "minus moved copies", "turned about an axis", "lattice", "thin shells", "touching balls", "tangent along lines"};
-  int motif = r.below(10);
+  static const char *const motifs[] = {"flush cuts", "stacked", "inscribed", "meeting in circles", "minus moved copies", "turned about an axis", "lattice", "thin shells", "touching balls", "tangent along lines", "sheets on one line"};
+  int motif = st.motif >= 0 ? st.motif : r.below(11);
   st.note("motif", motifs[motif]);
   switch (motif) {
   case 0: { // flush cuts
@@ -250,6 +251,48 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     if (n > 3) k.push_back(moved(V{-a - b, 0, 0}, simple(Shape::Sphere, {b})));
     return gate(an_op(r), k);
   }
+  case 10: { // sheets on one line: a double cone's generator, with planes and other surfaces that hold it, many of them tangent
+    static const int g[][3] = {{1, 0, 1}, {0, 1, 1}, {3, 4, 5}, {-4, 3, 5}};
+    auto &e = g[r.below(4)];
+    Spec cone = simple(Shape::General, {1, 1, -1, 0, 0, 0, 0, 0, 0, 0});
+    std::vector<Spec> k{cone};
+    const V along{Q(e[0]), Q(e[1]), Q(e[2])}, normal{Q(e[0]), Q(e[1]), Q(-e[2])};
+    for (int i = 1; i < std::max(2, std::min(n, 6)); i++) {
+      Spec s;
+      switch (r.below(6)) {
+      case 0: case 1: { // the tangent plane
+        Q side = r.chance(50) ? Q(1) : Q(-1);
+        s = simple(Shape::HalfSpace, {side * normal[0], side * normal[1], side * normal[2], r.chance(80) ? Q(0) : a_gap(r, st)});
+        break;
+      }
+      case 2: { // any plane on the line
+        V m = cross(along, V{Q(r.range(-3, 3)), Q(r.range(1, 3)), Q(r.range(-3, 3))});
+        if (zero(m)) m = normal;
+        s = simple(Shape::HalfSpace, {m[0], m[1], m[2], Q(0)});
+        break;
+      }
+      case 3: s = moved(Q(r.range(-3, 3)) * along, cone); break; // another cone, its apex on the line
+      case 4: // q + f (normal.x) (a plane): it holds the line, and touches the cone along it where f's plane does too
+      default: {
+        V m = r.chance(50) ? normal : cross(along, V{Q(r.range(-2, 2)), Q(r.range(-2, 2)), Q(r.range(1, 2))});
+        if (zero(m)) m = normal;
+        Q c = r.chance(50) ? Q(0) : Q(r.range(-4, 4)), f = Q(r.range(1, 3));
+        if (r.chance(50)) m = V{Q(r.range(-2, 2)), Q(r.range(-2, 2)), Q(r.range(-2, 2))};
+        std::vector<Q> p{1, 1, -1, 0, 0, 0, 0, 0, 0, 0};
+        const V &t = normal;
+        p[0] += f * t[0] * m[0], p[1] += f * t[1] * m[1], p[2] += f * t[2] * m[2];
+        p[3] += f * (t[0] * m[1] + t[1] * m[0]), p[4] += f * (t[0] * m[2] + t[2] * m[0]), p[5] += f * (t[1] * m[2] + t[2] * m[1]);
+        p[6] += f * c * t[0], p[7] += f * c * t[1], p[8] += f * c * t[2];
+        s = simple(Shape::General, p);
+        if (std::all_of(p.begin(), p.begin() + 9, [](const Q &q) { return q == 0; })) s = cone;
+      }
+      }
+      k.push_back(s);
+    }
+    if (r.chance(30)) k.push_back(simple(Shape::Cube, {2 * a, 2 * a, 2 * a}, true));
+    if (r.chance(50)) std::reverse(k.begin(), k.end());
+    return k.size() > 3 && r.chance(50) ? gate(an_op(r), {gate(an_op(r), {k[0], k[1]}), gate(an_op(r), std::vector<Spec>(k.begin() + 2, k.end()))}) : gate(an_op(r), k);
+  }
   default: { // a box and a round solid with a common generator or circle: all tangent along lines
     std::vector<Spec> k{moved({-a, -a, 0}, simple(Shape::Cube, {2 * a, 2 * a, b})), simple(Shape::Cylinder, {b, a})};
     if (n > 2) k.push_back(moved({2 * a + a_gap(r, st), 0, 0}, simple(Shape::Cylinder, {b, a})));
@@ -338,7 +381,7 @@ inline Spec a_chain(Random &r, const Style &st, int depth) {
 inline Spec a_model(Random &r, const Style &st, int most, std::string &frame) {
   int pick = r.below(100);
   int n = pick < 55 ? r.range(1, 5) : pick < 80 ? r.range(6, 16) : pick < 94 ? r.range(17, 50) : r.range(51, 200);
-  Spec s = r.chance(8) && most > 8 ? a_chain(r, st, r.range(6, std::min(12, most / 2 + 1))) : a_solid(r, st, std::min(n, most), r.range(2, 12));
+  Spec s = st.motif >= 0 ? a_motif(r, st, std::min(n, most)) : r.chance(8) && most > 8 ? a_chain(r, st, r.range(6, std::min(12, most / 2 + 1))) : a_solid(r, st, std::min(n, most), r.range(2, 12));
   s = in_frame(r, st, s, frame);
   if (st.census) {
     note_shapes(st, s);

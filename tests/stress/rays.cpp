@@ -1,7 +1,7 @@
 // Numerical stress: random hard models, bundles of hard rays asked in every way there is, every answer judged. Prints one line, with its
 // seed, that tools/stress adds up; a wrong answer is made small and written to a file.
 //
-// Usage: stress_rays [--seed S] [--seconds T | --models N] [--leaves N] [--share PERMILLE] [--finds DIR] [--census] [--again MODELSEED]
+// Usage: stress_rays [--seed S] [--seconds T | --models N] [--leaves N] [--share PERMILLE] [--motif NUMBER] [--finds DIR] [--census] [--again MODELSEED]
 #include "shrink.hpp"
 
 using namespace stress;
@@ -15,7 +15,7 @@ struct Options {
   uint64_t seed = 1;
   double seconds = 5;
   long models = 0;
-  int leaves = 200, share = 5;
+  int leaves = 200, share = 5, motif = -1;
   std::string finds = ".";
   bool census = false, once = false;
 };
@@ -24,7 +24,7 @@ static const char *const SIDES[] = {"outside", "boundary", "inside"};
 
 static void found(Totals &t, const Options &o, Case c, uint64_t model_seed, const char *what) {
   t.wrong++;
-  std::string again = "stress_rays --leaves " + std::to_string(o.leaves) + " --again " + std::to_string(model_seed);
+  std::string again = "stress_rays --leaves " + std::to_string(o.leaves) + (o.motif >= 0 ? " --motif " + std::to_string(o.motif) : "") + " --again " + std::to_string(model_seed);
   fprintf(stderr, "WRONG: %s, %s (%s)\n", what, WAYS[c.way], again.c_str());
   if (t.wrong <= 3) {
     shrink(c, 40);
@@ -105,7 +105,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
   Random r(seed);
   Style st;
   st.dyadic = r.chance(60);
-  st.census = &t.census;
+  st.census = &t.census, st.motif = o.motif;
   std::string frame;
   Spec spec = a_model(r, st, o.leaves, frame);
   uint64_t spots_seed = r.next();
@@ -196,6 +196,7 @@ int main(int argc, char **argv) {
     else if (a == "--models") o.models = atol(value());
     else if (a == "--leaves") o.leaves = atoi(value());
     else if (a == "--share") o.share = atoi(value());
+    else if (a == "--motif") o.motif = atoi(value());
     else if (a == "--finds") o.finds = value();
     else if (a == "--census") o.census = true;
     else if (a == "--again") again = strtoull(value(), nullptr, 10), o.once = true;

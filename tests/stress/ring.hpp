@@ -6,8 +6,8 @@
 // "Small" is 2^-1000 of the numbers there, which is no proof, but far below any feature that models of such numbers have.
 //
 // What is next to the line can change where two of the surfaces that hold it change their angle from 0, or where one has an apex. These parameters
-// are added to the line's events. (Where surfaces touch along the line they might also change places to second order: two points
-// of each stretch are looked at, and the ray is not judged if they differ.)
+// are added to the line's events, and those where two that touch all along it have one curvature across it. Two points of each stretch are looked at
+// all the same, and the ray is not judged if they differ.
 #pragma once
 #include "spec.hpp"
 #include "../oracle/evaluate.hpp"
@@ -60,6 +60,44 @@ inline Q near_root(const Root &r, int bits) {
   return r.a0() + r.a1() * Q(s, shifted_one(bits));
 }
 
+// Parameters where two surfaces that touch all along the line have one curvature across it: roots of
+//     K(t) = (g_j.w) eᵗQ_i e - (g_i.w) eᵗQ_j e,   e = d x g_i,
+// a cubic, from four values of it, without its factors g_i.w.
+inline std::vector<Root> equal_bends(const Quadric &a, const Quadric &b, const V &o, const V &d) {
+  const V w{Q(3) / 7, Q(-2) / 5, Q(5) / 11};
+  auto bend = [](const Quadric &q, const V &e) {
+    std::array<Q, 4> h{e[0], e[1], e[2], Q(0)};
+    return q.bilinear(h, h);
+  };
+  auto value = [&](int t) {
+    V p = o + Q(t) * d, g = a.gradient(p), e = cross(d, g);
+    return Q(dot(b.gradient(p), w) * bend(a, e) - dot(g, w) * bend(b, e));
+  };
+  Q v0 = value(0), v1 = value(1), v2 = value(2), v3 = value(3);
+  Q d1 = v1 - v0, d2 = v2 - Q(2) * v1 + v0, d3 = v3 - Q(3) * v2 + Q(3) * v1 - v0; // Newton's differences
+  std::vector<Q> k{v0, d1 - d2 / 2 + d3 / 3, d2 / 2 - d3 / 2, d3 / 6};           // k0 + k1 t + k2 t2 + k3 t3
+  Q c0 = dot(a.gradient(o), w), c1 = dot(a.gradient(o + d), w) - c0;
+  while (c1 != 0) { // by c0 + c1 t, as long as it goes
+    Q at = -c0 / c1;
+    std::vector<Q> quotient(4, Q(0));
+    Q rest = 0;
+    for (size_t i = 4; i-- > 0;) {
+      Q next = rest * at + k[i];
+      if (i) quotient[i - 1] = next;
+      rest = next;
+    }
+    if (rest != 0 || (k[1] == 0 && k[2] == 0 && k[3] == 0)) break;
+    k = quotient;
+  }
+  std::vector<Root> roots;
+  if (k[3] != 0) return roots;
+  Z by = common(common(k[0].denominator(), k[1].denominator()), k[2].denominator());
+  Line1 l = solve(Quadratic{over(k[2], by), over(k[1], by), over(k[0], by)});
+  roots = l.roots;
+  if (l.touches) roots.push_back(Root(-k[1] / (Q(2) * k[2])));
+  return roots;
+}
+
 inline Answer beside(const Node &solid, const Surfaces &surfaces, const V &o, const V &d) {
   Answer out;
   out.skipped = true;
@@ -94,6 +132,8 @@ inline Answer beside(const Node &solid, const Surfaces &surfaces, const V &o, co
       Line1 l = solve(p);
       for (auto &r : l.roots) event(r, -1);
       if (l.touches) event(Root(-b / (Q(2) * a)), -1);
+      if (l.zero)
+        for (auto &r : equal_bends(*zeros[i], *zeros[j], o, d)) event(r, -1);
     }
   }
   std::sort(events.begin(), events.end(), [](const Event &a, const Event &b) { return a.t < b.t; });

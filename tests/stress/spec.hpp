@@ -295,7 +295,16 @@ inline Leaf leaf_of(const Shape &s, Random &r, double &reach) {
     set(0, 0, p[0]), set(1, 1, p[1]), set(2, 2, p[2]), set(0, 1, p[3]), set(0, 2, p[4]), set(1, 2, p[5]);
     set(0, 3, p[6]), set(1, 3, p[7]), set(2, 3, p[8]), set(3, 3, p[9]);
     l.halves = {q};
-    if (p[9] == 0) smooth({0, 0, 0}, q);
+    bool cone = true, unit = p[0] == 1 && p[1] == 1 && p[2] == -1; // x2 + y2 - z2: with its generators, through the apex
+    for (int i = 3; i < 10; i++) cone = cone && p[(size_t)i] == 0;
+    if (cone && unit) {
+      static const int g[][3] = {{1, 0, 1}, {0, 1, 1}, {3, 4, 5}, {-4, 3, 5}, {5, 12, 13}};
+      for (auto &e : g) {
+        V along{Q(e[0]), Q(e[1]), Q(e[2])};
+        spot(Spot::Generator, along, q.gradient(along), along);
+        spot(Spot::Apex, {0, 0, 0}, V{0, 0, 0}, along);
+      }
+    } else if (p[9] == 0) smooth({0, 0, 0}, q);
     else spot(Spot::Smooth, {0, 0, 0}, V{0, 0, 1}, V{1, 0, 0});
   }
   }
