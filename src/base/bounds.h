@@ -158,6 +158,9 @@
 #define QN_ROUND_LINEAR_TINY 0x1p-80
 #define QN_ROUND_TINY 0x1p-56
 #define QN_ROUND_LARGEST 0x1p+42
+/* A place (X - o) / d on a plane across an axis (src/wide/spans_flat.h) is within QN_ROUND_FLAT (|X| + |o|) |fl(1/d)| of the sum that is rounded, while |X - o| and 1/|d| are
+   within QN_ROUND_WIDEST and its inverse and |X| + |o| is below it. */
+#define QN_ROUND_FLAT 0x1p-99
 #define QN_ROUND_WIDEST 0x1p+400
 
 /* Rounding places on a ball (wide/round_ball.h). Legend: rho the power of two with rho <= sqrt(r2) < 2 rho, p = |y|^2 - r^2, y = o - c + t d, S = y . d, d_most

@@ -179,34 +179,41 @@ static quoin_status woven(quoin_work *work, unsigned lane, unsigned want, size_t
   return status;
 }
 
+static const uint8_t LANE_AT[8][8] = {{0, 1, 4, 5, 16, 17, 20, 21},     {2, 3, 6, 7, 18, 19, 22, 23},     {8, 9, 12, 13, 24, 25, 28, 29},   {10, 11, 14, 15, 26, 27, 30, 31},
+                                      {32, 33, 36, 37, 48, 49, 52, 53}, {34, 35, 38, 39, 50, 51, 54, 55}, {40, 41, 44, 45, 56, 57, 60, 61}, {42, 43, 46, 47, 58, 59, 62, 63}};
+
 /* One tile; its first ray is number `first` of the answer, a row has `stride`. */
-static quoin_status tile_intervals(quoin_work *work, unsigned want, size_t first, size_t stride) {
+static quoin_status tile_intervals(quoin_work *work, unsigned want, size_t first, size_t stride, unsigned columns, unsigned rows) {
   qn_sheaf *s = work->sheaf;
   uint64_t sure;
   quoin_status status = qn_sheaf_tile(work, &sure);
   if (status != QUOIN_OK) {
     return status;
   }
-  size_t count = 0;
-  for (uint64_t m = sure; m; m &= m - 1) {
-    count += s->spans.row_count[qn_trailing_zeros(m)] / 2;
-  }
-  if (s->found_count + count > UINT32_MAX || !qn_grow(work->mem, &s->found, &s->found_capacity, s->found_count + count)) {
+  if (s->found_count > UINT32_MAX - QN_LANES * (size_t)(s->spans.rows / 2) ||
+      !qn_grow(work->mem, &s->found, &s->found_capacity, s->found_count + QN_LANES * (size_t)(s->spans.rows / 2))) {
     return QUOIN_E_MEMORY;
   }
-  for (uint64_t m = sure; m; m &= m - 1) {
-    const unsigned lane = qn_trailing_zeros(m);
-    const size_t place = first + qn_lane_row(lane) * stride + qn_lane_column(lane);
-    const uint32_t n = s->spans.row_count[lane] / 2;
-    s->found_of[place] = (quoin_run){(uint32_t)s->found_count, n};
-    if (n) {
-      qn_sheaf_write(work, lane, s->found + s->found_count);
-      s->found_count += n;
+  for (unsigned y = 0; y < rows; y++) {
+    quoin_run *run = s->found_of + first + y * stride;
+    for (unsigned x = 0; want && x < columns; x++) { /* what is certain has nothing in the boundary */
+      s->boundary_of[first + y * stride + x] = (quoin_run){(uint32_t)s->boundary_count, 0};
     }
-  }
-  for (uint64_t m = want ? sure : 0; m; m &= m - 1) { /* what is certain has nothing in the boundary */
-    const unsigned lane = qn_trailing_zeros(m);
-    s->boundary_of[first + qn_lane_row(lane) * stride + qn_lane_column(lane)] = (quoin_run){(uint32_t)s->boundary_count, 0};
+    if (s->spans.rows == 0) {
+      for (unsigned x = 0; x < columns; x++) {
+        run[x] = (quoin_run){(uint32_t)s->found_count, 0};
+      }
+      continue;
+    }
+    for (unsigned x = 0; x < columns; x++) {
+      const unsigned lane = LANE_AT[y][x];
+      const uint32_t n = sure >> lane & 1 ? s->spans.row_count[lane] / 2 : 0;
+      run[x] = (quoin_run){(uint32_t)s->found_count, n};
+      if (n) {
+        qn_sheaf_write(work, lane, s->found + s->found_count);
+        s->found_count += n;
+      }
+    }
   }
   for (uint64_t m = s->packet.live & ~sure; m && status == QUOIN_OK; m &= m - 1) {
     const unsigned lane = qn_trailing_zeros(m);
@@ -251,7 +258,7 @@ quoin_status quoin_grid_intervals(const quoin_scene *scene, quoin_work *work, co
           return QUOIN_E_ARGUMENT;
         }
         packet->live = columns == 8 && rows == 8 ? ~(uint64_t)0 : lanes_within(columns, rows);
-        quoin_status status = tile_intervals(work, want, (y - y0) * stride + (x - x0), stride);
+        quoin_status status = tile_intervals(work, want, (y - y0) * stride + (x - x0), stride, columns, rows);
         if (status != QUOIN_OK) {
           return status;
         }

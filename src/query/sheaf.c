@@ -9,6 +9,7 @@
 #include "base/bounds.h"
 #include "query/look.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -28,6 +29,8 @@ static void free_slots(quoin_work *work) {
   qn_free(work->mem, s->slots, slots_size(s));
   qn_free_line(work->mem, s->row_t, rows_size(s));
   qn_free_line(work->mem, s->row_name, rows_size(s));
+  qn_free(work->mem, s->pending, rows_size(s) / QN_LANES);
+  s->pending = NULL;
   s->ends = s->row_t = s->row_name = NULL, s->slots = NULL, s->capacity = 0;
 }
 
@@ -39,7 +42,8 @@ static int room_for_slots(quoin_work *work, uint32_t capacity) {
   s->slots = qn_alloc(work->mem, slots_size(s));
   s->row_t = qn_alloc_line(work->mem, rows_size(s));
   s->row_name = qn_alloc_line(work->mem, rows_size(s));
-  if (!s->ends || !s->slots || !s->row_t || !s->row_name) {
+  s->pending = qn_alloc(work->mem, rows_size(s) / QN_LANES);
+  if (!s->ends || !s->slots || !s->row_t || !s->row_name || !s->pending) {
     free_slots(work);
     return 0;
   }
@@ -56,6 +60,9 @@ static int make(quoin_work *work) {
     return 0;
   }
   memset(work->sheaf, 0, sizeof *work->sheaf);
+  for (size_t i = 0; i < sizeof work->sheaf->roles / sizeof *work->sheaf->roles; i++) {
+    work->sheaf->roles[i].name = QN_SPAN_CUT;
+  }
   work->sheaf->count = qn_alloc(work->mem, program->gate_count * sizeof *work->sheaf->count);
   work->sheaf->deep = program->paths ? qn_scratch_eval(work->scratch) : NULL;
   if (!work->sheaf->count || !room_for_slots(work, SLOTS_AT_FIRST)) {
@@ -373,39 +380,41 @@ static quoin_status round_alone(quoin_work *work, const bundle *b, unsigned lane
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* Row by row: neighbours' ends are mostly on one surface. */
+/* Planes across an axis first, then row by row: neighbours' ends are mostly on one surface. */
 static quoin_status round_rows(quoin_work *work, const bundle *b, uint64_t lanes) {
   qn_packet_spans *s = &work->sheaf->spans;
+  const qn_packet *packet = &work->sheaf->packet;
+  uint64_t *made = &qn_scratch_counts(work->scratch)->exact_forms, some = 0;
   qn_packet_hits hits;
   _Alignas(64) double rounded[QN_LANES];
   quoin_status status = QUOIN_OK;
-  for (uint64_t m = lanes; m; m &= m - 1) {
+  work->wide->round_flats(work->scene, packet, s, lanes, made);
+  if (s->rows == 0) {
+    return QUOIN_OK;
+  }
+  for (uint32_t j = 0; j < s->rows; j++) {
+    some |= s->pending[j];
+  }
+  for (uint64_t m = some; m; m &= m - 1) {
     const unsigned lane = qn_trailing_zeros(m);
-    lanes &= ~((uint64_t)!s->row_count[lane] << lane);
     hits.error[lane] = s->tolerance[lane] / 2;
   }
-  for (uint32_t j = 0; lanes && status == QUOIN_OK; j++) {
+  for (uint32_t j = 0; some && j < s->rows && status == QUOIN_OK; j++) {
     double *t = s->row_t + (size_t)j * QN_LANES;
     const double *names = s->row_name + (size_t)j * QN_LANES;
-    uint64_t now = 0;
-    for (uint64_t m = lanes; m; m &= m - 1) {
+    const uint64_t now = s->pending[j];
+    for (uint64_t m = now; m; m &= m - 1) {
       const unsigned lane = qn_trailing_zeros(m);
-      if (s->row_count[lane] <= j) {
-        lanes &= ~((uint64_t)1 << lane);
-        continue;
-      }
       uint64_t name;
       memcpy(&name, &names[lane], sizeof name);
       hits.t[lane] = t[lane], hits.surface[lane] = (uint32_t)name, hits.leaf[lane] = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
-      now |= (uint64_t)(name != QN_SPAN_CUT) << lane;
     }
-    const uint64_t sure = now ? work->wide->round(work->scene, &work->sheaf->packet, &hits, now, rounded, &qn_scratch_counts(work->scratch)->exact_forms) : 0;
+    const uint64_t sure = now ? work->wide->round(work->scene, packet, &hits, now, rounded, made) : 0;
     for (uint64_t m = sure; m; m &= m - 1) {
       const unsigned lane = qn_trailing_zeros(m);
       t[lane] = rounded[lane];
     }
-    now &= ~sure;
-    for (uint64_t m = now; m && status == QUOIN_OK; m &= m - 1) {
+    for (uint64_t m = now & ~sure; m && status == QUOIN_OK; m &= m - 1) {
       const unsigned lane = qn_trailing_zeros(m);
       uint64_t name;
       memcpy(&name, &names[lane], sizeof name);
@@ -415,26 +424,37 @@ static quoin_status round_rows(quoin_work *work, const bundle *b, uint64_t lanes
   return status;
 }
 
-QN_INLINE quoin_end end_of(const quoin_scene *scene, const double *t, const double *payload) {
+/* The role of a payload's surface in its leaf. Neighbouring rays ask for the same few, and which face of a box it is cannot be guessed. */
+QN_INLINE uint32_t role_of(const quoin_scene *scene, qn_sheaf_role *known, uint64_t name) {
+  const uint64_t key = name & ~QN_SPAN_LARGER;
+  qn_sheaf_role *at = &known[key * 0x9e3779b97f4a7c15u >> (64 - QN_SHEAF_ROLE_BITS)];
+  if (QN_UNLIKELY(at->name != key)) {
+    const qn_leaf *leaf = &scene->leaves[(uint32_t)(name >> 32) & QN_SPAN_LEAF];
+    const qn_half *half = &scene->halves[leaf->half0];
+    for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
+      half++;
+    }
+    *at = (qn_sheaf_role){key, half->role};
+  }
+  return at->role;
+}
+
+QN_INLINE quoin_end end_of(const quoin_scene *scene, qn_sheaf_role *known, const double *t, const double *payload) {
   uint64_t name;
   memcpy(&name, payload, sizeof name);
   if (QN_UNLIKELY(name == QN_SPAN_CUT)) {
     return (quoin_end){*t == 0 ? 0 : *t, QUOIN_NO_PART, QUOIN_BODY}; /* no negative zero */
   }
-  const uint32_t part = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
-  const qn_leaf *leaf = &scene->leaves[part];
-  const qn_half *half = &scene->halves[leaf->half0];
-  for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
-    half++;
-  }
-  return (quoin_end){*t, part, half->role};
+  return (quoin_end){*t, (uint32_t)(name >> 32) & QN_SPAN_LEAF, role_of(scene, known, name)};
 }
 
 void qn_sheaf_write(const quoin_work *work, unsigned lane, quoin_interval *out) {
   const qn_packet_spans *s = &work->sheaf->spans;
+  const quoin_scene *scene = work->scene;
+  qn_sheaf_role *known = work->sheaf->roles;
   const double *t = s->row_t + lane, *name = s->row_name + lane;
-  for (uint32_t j = 0; j < s->row_count[lane]; j += 2, t += 2 * QN_LANES, name += 2 * QN_LANES) {
-    *out++ = (quoin_interval){end_of(work->scene, t, name), end_of(work->scene, t + QN_LANES, name + QN_LANES)};
+  for (uint32_t j = s->row_count[lane]; j; j -= 2, t += 2 * QN_LANES, name += 2 * QN_LANES) {
+    *out++ = (quoin_interval){end_of(scene, known, t, name), end_of(scene, known, t + QN_LANES, name + QN_LANES)};
   }
 }
 
@@ -470,6 +490,23 @@ static void fill_low(qn_packet *p, size_t lanes, size_t n, double (*low)[6]) {
   }
 }
 
+/* Whether the solid may hold any of a group's lanes: the program only rises with its literals, so where it is false with all leaves that any lane meets entered, and none
+   left that is taken away, no order of ends makes it true. */
+static int may_hold(quoin_work *work, unsigned g) {
+  const qn_sheaf *s = work->sheaf;
+  const lane_walk w = {.scene = work->scene, .sheaf = work->sheaf, .slots = s->spans.slots + (size_t)g * s->spans.capacity};
+  int value = work->scene->program.base;
+  for (int pass = 0; pass < 2; pass++) { /* and back to rest */
+    for (uint32_t k = 0; k < s->spans.count[g]; k++) {
+      if (!w.slots[k].negated) {
+        const int other = change(&w, (uint64_t)k << 32 | (pass ? 0 : QN_SHEAF_ENTERS));
+        value ^= pass ? 0 : other;
+      }
+    }
+  }
+  return value;
+}
+
 static int in_boxes(const quoin_work *work, unsigned lane) {
   const qn_packet_spans *s = &work->sheaf->spans;
   int in = 1;
@@ -487,6 +524,7 @@ static quoin_status make_rows(quoin_work *work, const bundle *b, uint64_t *sure)
   if (status != QUOIN_OK) {
     return status;
   }
+  const int simple = work->scene->program.gate_count == 1;
   uint64_t lanes = s->spans.merged, rest = live & ~(s->spans.merged | s->spans.unsure);
   if (QN_UNLIKELY(rest)) {
     uint32_t most = 0;
@@ -497,9 +535,13 @@ static quoin_status make_rows(quoin_work *work, const bundle *b, uint64_t *sure)
       return QUOIN_E_MEMORY;
     }
     s->ordered = UINT32_MAX;
+    unsigned asked = UINT_MAX, holds = 1;
     for (; rest; rest &= rest - 1) {
-      const unsigned lane = qn_trailing_zeros(rest);
-      if (!(s->packet.from[lane] < s->packet.to[lane])) {
+      const unsigned lane = qn_trailing_zeros(rest), g = lane / work->wide->width;
+      if (g != asked && !simple) {
+        asked = g, holds = (unsigned)may_hold(work, g);
+      }
+      if (!holds || !(s->packet.from[lane] < s->packet.to[lane])) {
         s->spans.row_count[lane] = 0;
         lanes |= (uint64_t)1 << lane;
       } else {

@@ -7,6 +7,9 @@
 typedef struct qn_sheaf_event { double t; uint64_t name; } qn_sheaf_event; /* name: a payload with the slot in the leaf's place, and QN_SHEAF_ENTERS */
 #define QN_SHEAF_ENTERS ((uint64_t)1 << 63)
 
+typedef struct qn_sheaf_role { uint64_t name; uint32_t role; } qn_sheaf_role; /* a payload without QN_SPAN_LARGER, or QN_SPAN_CUT for none */
+enum { QN_SHEAF_ROLE_BITS = 8 };
+
 enum { QN_SHEAF_FEW = 64 }; /* slots of a group that are sorted as one */
 
 struct qn_sheaf {
@@ -18,6 +21,7 @@ struct qn_sheaf {
   uint32_t ordered;      /* the group whose slots `order` is of */
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
+  qn_sheaf_role roles[1 << QN_SHEAF_ROLE_BITS]; /* some that were asked for */
   uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
   /* Of a grid: found is all of it, and */
   quoin_interval *boundary; size_t boundary_count, boundary_capacity;

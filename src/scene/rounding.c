@@ -7,6 +7,7 @@
 
 #include "base/bounds.h"
 #include "base/limits.h"
+#include "number/quad.h"
 #include "scene/compile.h"
 
 #include <math.h>
@@ -87,6 +88,27 @@ static unsigned order_axes(const qn_int q[10], uint8_t axis[3]) {
   return (occurs & 1) + (occurs >> 1 & 1) + (occurs >> 2);
 }
 
+/* Where G x + J = 0 stands: the nearest double, and the double nearest to what that lacks. */
+static void stand(qn_ctx *ctx, qn_int g, qn_int j, double place[2]) {
+  qn_int num = qn_int_sub(ctx, qn_int_from(ctx, 0), j), den = g;
+  double m;
+  int64_t e;
+  place[0] = qn_rat_to_double(ctx, num, den), place[1] = 0;
+  if (place[0] == 0 || !isfinite(place[0])) {
+    return;
+  }
+  m = frexp(place[0], &(int){0});
+  e = ilogb(place[0]) + 1 - 53; /* place[0] = m 2^53 2^e */
+  qn_int whole = qn_int_from(ctx, (int64_t)ldexp(m, 53));
+  if (e >= 0) {
+    whole = qn_int_shl(ctx, whole, (size_t)e);
+  } else {
+    num = qn_int_shl(ctx, num, (size_t)-e);
+  }
+  num = qn_int_sub(ctx, num, qn_int_mul(ctx, whole, den));
+  place[1] = qn_rat_to_double(ctx, num, e >= 0 ? den : qn_int_shl(ctx, den, (size_t)-e));
+}
+
 static void fill(qn_ctx *ctx, const qn_exact_surface *form, const double pivot[3], qn_rounding *out) {
   static const int product[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}}; /* where the coefficient of two coordinates is */
   qn_int q[10];
@@ -112,6 +134,9 @@ static void fill(qn_ctx *ctx, const qn_exact_surface *form, const double pivot[3
   out->k[QN_ROUNDING_CONSTANT] = most[0] + QN_ROUND_TINY;
   if (form->plane) {
     out->kind = axes == 1 ? QN_ROUNDING_AXIS : QN_ROUNDING_PLANE;
+    if (axes == 1) {
+      stand(ctx, form->q[6 + out->axis[0]], form->q[9], out->place);
+    }
   } else if (most[2] == 0) {
     out->kind = QN_ROUNDING_NONE; /* what is left would pass for a plane */
   } else if (hi[3] != 0 || hi[4] != 0 || hi[5] != 0) {

@@ -36,6 +36,7 @@ typedef struct qn_rounding {
   double k[QN_ROUNDING_NUMBERS];
   uint8_t axis[3]; /* y_j is coordinate axis[j] of x - c */
   uint8_t kind;
+  double place[2]; /* QN_ROUNDING_AXIS: where on its axis the plane stands, as a sum within 2^-105 of itself, the second at most half a unit of the first */
 } qn_rounding;
 
 /* What qn_scene_rounding does the first time. */

@@ -99,12 +99,18 @@ typedef struct qn_packet_spans {
   double *row_t, *row_name; /* aligned to 64 */
   uint32_t row_count[QN_LANES];
   uint64_t merged;
+  uint64_t *pending; /* by row, of the first `rows`: the lanes whose t is to be rounded yet (qn_round_flats_fn) */
+  uint32_t rows;
 } qn_packet_spans;
 #define QN_SPAN_FAR 0x1p+500
 #define QN_SPAN_CUT UINT64_MAX /* instead of a payload, in a row: where the ray's range cuts the stretch */
 /* A payload: the surface (low half), the leaf, and whether it is the larger of the surface's two roots on that ray. */
 #define QN_SPAN_LARGER ((uint64_t)1 << 62)
 #define QN_SPAN_LEAF 0x3fffffffu /* of the upper half */
+
+/* The rows of `lanes` that end on planes across an axis get the double nearest to the true t, where that is certain; the others are `pending`. *made is increased by the
+   exact forms made. */
+typedef void (*qn_round_flats_fn)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t lanes, uint64_t *made);
 
 /* Fills spans; live lanes must have from < to or are not solved. A tile's origins are filled in unless nothing is near. */
 typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
@@ -142,6 +148,7 @@ typedef struct qn_wide {
   qn_round_one_fn round_one;
   qn_gather_fn gather;
   qn_move_fn move;
+  qn_round_flats_fn round_flats;
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

@@ -149,6 +149,19 @@ static void check_surface(const quoin_scene *scene, uint32_t surface) {
   int plane = form->plane, crossed = r->k[QN_ROUNDING_HI + 3] != 0 || r->k[QN_ROUNDING_HI + 4] != 0 || r->k[QN_ROUNDING_HI + 5] != 0;
   assert_int_equal(r->kind, plane ? (axes == 1 ? QN_ROUNDING_AXIS : QN_ROUNDING_PLANE)
                             : crossed ? QN_ROUNDING_FULL : axes == 3 ? QN_ROUNDING_DIAGONAL : QN_ROUNDING_ROUND);
+  if (r->kind == QN_ROUNDING_AXIS) { /* where it stands */
+    mpq_set_z(x, q[9]);
+    mpq_set_z(y, q[6 + r->axis[0]]);
+    mpq_div(x, x, y);
+    mpq_neg(x, x);
+    mpq_set_d(y, r->place[0]);
+    mpq_sub(y, x, y);
+    mpq_set_d(factor, r->place[1]);
+    mpq_sub(y, y, factor);
+    mpq_mul_2exp(y, y, 105);
+    mpq_abs(x, x), mpq_abs(y, y);
+    assert_true(mpq_cmp(y, x) <= 0 && r->place[0] + r->place[1] == r->place[0]);
+  }
   assert_true(r->k[QN_ROUNDING_SQUARE] >= sizes[0] && r->k[QN_ROUNDING_LINEAR] >= sizes[1] && r->k[QN_ROUNDING_CONSTANT] >= sizes[2]);
   assert_true(r->k[QN_ROUNDING_LINEAR] >= QN_ROUND_LINEAR_TINY && r->k[QN_ROUNDING_CONSTANT] >= QN_ROUND_TINY);
   assert_true(plane || r->k[QN_ROUNDING_SQUARE] >= QN_ROUND_SQUARE_TINY);
