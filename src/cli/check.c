@@ -239,14 +239,15 @@ static int run(const cli_command *self, int argc, char **argv) {
       quoin_scene_get_info(loaded.scene, &info);
       put_summary(&text, &info);
       quoin_status status = quoin_near_find(loaded.scene, asked.near, &near);
-      if (status != QUOIN_OK) {
-        cli_error("%s", quoin_status_text(status));
-      }
       code = cli_code(status);
-      say_near(near, common.quiet);
-      cli_putf(&text, "near_pairs %zu%s\n", quoin_near_count(near), quoin_near_complete(near) ? "" : " and more");
-      if (quoin_scene_snapped(loaded.scene)) {
-        cli_putf(&text, "snapped %zu\n", quoin_near_count(quoin_scene_snapped(loaded.scene)));
+      if (status == QUOIN_OK) {
+        say_near(near, common.quiet);
+        cli_putf(&text, "near_pairs %zu%s\n", quoin_near_count(near), quoin_near_complete(near) ? "" : " and more");
+        if (quoin_scene_snapped(loaded.scene)) {
+          cli_putf(&text, "snapped %zu\n", quoin_near_count(quoin_scene_snapped(loaded.scene)));
+        }
+      } else { /* no number of pairs is a false one */
+        cli_error("%s", quoin_status_text(status));
       }
     }
   }
@@ -259,12 +260,8 @@ static int run(const cli_command *self, int argc, char **argv) {
   cli_unload(&loaded);
   cli_out out;
   cli_out_open(&out, NULL);
-  cli_out_write(&out, text.data, text.length);
+  cli_out_text(&out, &text);
   int closed = cli_out_close(&out, 1);
-  if (text.failed) {
-    cli_error("%s", quoin_status_text(QUOIN_E_MEMORY));
-    closed = CLI_IO;
-  }
   cli_text_free(&text);
   return closed != CLI_OK ? closed : code;
 }

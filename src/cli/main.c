@@ -26,7 +26,7 @@ static void keep_standard_streams(void) {
 static int print(const cli_text *text) {
   cli_out out;
   cli_out_open(&out, NULL);
-  cli_out_write(&out, text->data, text->length);
+  cli_out_text(&out, text);
   return cli_out_close(&out, 1);
 }
 

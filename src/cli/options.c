@@ -63,7 +63,7 @@ int cli_help(const cli_command *command) {
                   "4 input, output or memory failed.\n");
   cli_out out;
   cli_out_open(&out, NULL);
-  cli_out_write(&out, text.data, text.length);
+  cli_out_text(&out, &text);
   cli_text_free(&text);
   return cli_out_close(&out, 1);
 }

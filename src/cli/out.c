@@ -107,6 +107,14 @@ int cli_out_write(cli_out *out, const char *bytes, size_t length) {
   return out->error ? -1 : 0;
 }
 
+int cli_out_text(cli_out *out, const cli_text *text) {
+  if (text->failed) {
+    fail(out, ENOMEM);
+    return -1;
+  }
+  return cli_out_write(out, text->data, text->length);
+}
+
 int cli_out_close(cli_out *out, int keep) {
   if (keep || !out->path) {
     cli_out_flush(out);

@@ -18,6 +18,8 @@ void cli_out_open(cli_out *out, const char *path);
 /* Both return 0, or -1 once anything has failed. */
 int cli_out_write(cli_out *out, const char *bytes, size_t length);
 int cli_out_flush(cli_out *out);
+/* A text, or nothing and an error where it could not be made whole. */
+int cli_out_text(cli_out *out, const cli_text *text);
 /* Ends the output: flushes, closes and puts the file in its place; with keep 0 the file is given up instead (standard
    output keeps what it has got). Returns CLI_OK or, after a message, CLI_IO. A reader that went away (a broken pipe) is
    CLI_IO without a message. */

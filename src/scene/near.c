@@ -77,7 +77,10 @@ static const char *exactly(qn_near_finder *f, qn_num gap) {
   const char *text = qn_num_text(&f->ctx, gap);
   size_t length = text ? strlen(text) : 0;
   text = length && length <= LONGEST ? qn_arena_text(&f->out->texts, text, length) : "";
-  return text ? text : "";
+  if (!text) { /* said to be unknown, it would be another answer */
+    f->ctx.failed = QUOIN_E_MEMORY;
+  }
+  return text;
 }
 
 /* Compares with the candidates. *stands: no surface of the index stands for this one. */
