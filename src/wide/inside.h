@@ -26,11 +26,13 @@ QN_INLINE unsigned in_sphere(const qn_piece_sphere *s, qn_wide_point p) {
 }
 
 QN_INLINE unsigned in_box(const qn_piece_box *b, qn_wide_point p) {
-  double depth = INFINITY; /* beneath the nearest face */
+  double low[3], high[3], depth = INFINITY; /* beneath the nearest face */
   for (int i = 0; i < 3; i++) {
-    double low = p.x[i] - b->lo[i], high = b->hi[i] - p.x[i];
-    depth = low < depth ? low : depth;
-    depth = high < depth ? high : depth;
+    low[i] = p.x[i] - b->lo[i], high[i] = b->hi[i] - p.x[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    const double least = low[i] < high[i] ? low[i] : high[i];
+    depth = least < depth ? least : depth;
   }
   return verdict_of(-depth, QN_POINT_BOX_SLACK * (b->off + QN_U * p.weight) + QN_POINT_TINY);
 }

@@ -145,18 +145,17 @@ static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t
     }
     ask(w, &below);
     size_t left = 0;
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count; k++) { /* which way an answer goes is anybody's guess: no branch hangs on it */
       open_term o = open[k];
       const qn_nterm *t = &normal->terms[o.term];
       uint8_t *answer = &q->verdict[o.query], v = below.verdict[k];
       v = i < t->minus ? (uint8_t)(QN_SURELY_IN - v) : v;
       o.verdict = v < o.verdict ? v : o.verdict;
-      if (o.verdict > *answer) {
-        if (i + 1 == t->minus + t->plus) {
-          *answer = o.verdict;
-        } else {
-          open[left++] = o;
-        }
+      if (i + 1 == t->minus + t->plus) {
+        *answer = o.verdict > *answer ? o.verdict : *answer;
+      } else {
+        open[left] = o;
+        left += o.verdict > *answer;
       }
     }
     count = left;
@@ -247,8 +246,18 @@ static void settle_term(walk *w, questions *q, uint32_t term) {
   const qn_piece_head *first = t->leaves ? piece_at(scene, scene->normal.leaves[t->leaf0]) : NULL;
   open_term open[QN_POINTS];
   size_t opened = 0;
-  for (size_t i = 0; i < q->n; i++) {
-    opened += settle_pair(w, q, (uint32_t)i, term, first, &open[opened]);
+  if (t->leaves == 1 && t->minus + t->plus && first->kind == QN_PIECE_BOX) { /* a block that things are taken from: without a branch */
+    const qn_piece_box block = *(const qn_piece_box *)(const void *)first;
+    w->counts.leaves += q->n;
+    for (size_t i = 0; i < q->n; i++) {
+      unsigned one = in_box(&block, point_of(w, q->point[i]));
+      open[opened] = (open_term){(uint32_t)i, term, (uint8_t)one};
+      opened += one > q->verdict[i];
+    }
+  } else {
+    for (size_t i = 0; i < q->n; i++) {
+      opened += settle_pair(w, q, (uint32_t)i, term, first, &open[opened]);
+    }
   }
   if (opened) {
     ask_lists(w, q, open, opened);
@@ -282,14 +291,15 @@ QN_INLINE void settle_waiting(walk *w, questions *q, waiting *p, size_t room) {
 
 /* The terms in the cells of some questions. A cell that does not say, or none, puts the union's root on the stack, whose top is returned. */
 static size_t ask_cells(walk *w, questions *q, const uint32_t *cell, size_t top, waiting *p) {
-  const qn_cells *cells = w->room->cells;
-  w->top = top + q->n; /* no further than this */
-  for (size_t i = 0; i < q->n; i++) {
+  const uint32_t *const start = w->room->cells->start, *const term = w->room->cells->term;
+  const size_t n = q->n;
+  w->top = top + n; /* no further than this */
+  for (size_t i = 0; i < n; i++) {
     if (cell[i] == NOWHERE) {
       continue;
     }
-    const uint32_t *first = cell[i] == QN_NO_GRID ? NULL : cells->term + cells->start[cell[i]];
-    size_t count = first ? cells->start[cell[i] + 1] - cells->start[cell[i]] : 0;
+    const uint32_t *first = cell[i] == QN_NO_GRID ? NULL : term + start[cell[i]];
+    size_t count = first ? start[cell[i] + 1] - start[cell[i]] : 0;
     if (QN_UNLIKELY(!first || (count && *first == QN_CELL_CROWDED))) {
       w->room->query[top] = (uint32_t)i, w->room->node[top++] = w->scene->normal.unions[q->un[i]].root;
       continue;
@@ -304,6 +314,20 @@ static size_t ask_cells(walk *w, questions *q, const uint32_t *cell, size_t top,
   return top;
 }
 
+/* Whether all questions are about one union that has cells and no terms beside them. */
+static int one_with_cells(const walk *w, const questions *q) {
+  const qn_cells *cells = w->room->cells;
+  const qn_union *u = &w->scene->normal.unions[q->un[0]];
+  if (!cells || q->n == 0 || u->wide || u->terms <= FEW || cells->grid[q->un[0]] == QN_NO_GRID) {
+    return 0;
+  }
+  uint32_t other = 0;
+  for (size_t i = 1; i < q->n; i++) {
+    other |= q->un[i] ^ q->un[0];
+  }
+  return other == 0;
+}
+
 /* Starts the questions: terms without a place in a hierarchy, the terms of unions of very few, and those listed in cells are asked at once; the
    roots of the other hierarchies go on the stack, whose top is returned. */
 static size_t start(walk *w, questions *q, size_t top) {
@@ -315,6 +339,18 @@ static size_t start(walk *w, questions *q, size_t top) {
   p.n = 0;
   w->top = top + q->n; /* the stack may grow by so much meanwhile */
   memset(q->verdict, QN_SURELY_OUT, q->n);
+  if (one_with_cells(w, q)) {
+    const qn_cell_grid grid = cells->grids[cells->grid[q->un[0]]];
+    for (size_t i = 0; i < q->n; i++) {
+      cell[i] = cell_at(&grid, w->room->box[q->point[i]]);
+      QN_FETCH(&cells->start[cell[i] == QN_NO_GRID ? 0 : cell[i]]);
+    }
+    top = ask_cells(w, q, cell, top, &p);
+    if (p.n) {
+      settle_pairs(w, q, p.n, p.query, p.term);
+    }
+    return top;
+  }
   for (size_t i = 0; i < q->n; i++) {
     const qn_union *u = &normal->unions[q->un[i]];
     cell[i] = NOWHERE;
