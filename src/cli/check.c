@@ -180,11 +180,12 @@ static void put_json_diag(cli_text *text, const quoin_diag *d, int quiet, int *a
 }
 
 /* The object: {"status":..., "diagnostics":[...], and what is known of the scene}. */
-static void put_json(cli_text *text, const cli_loaded *loaded, const quoin_near_list *near, quoin_status status, int system_error, int quiet) {
+static void put_json(cli_text *text, cli_loaded *loaded, const quoin_near_list *near, quoin_status status, int system_error, int quiet) {
+  cli_why why;
   cli_puts(text, "{\"model\":");
   cli_put_json(text, loaded->path);
   cli_puts(text, ",\"status\":");
-  cli_put_json(text, status == QUOIN_OK ? "ok" : status == QUOIN_E_IO && system_error ? strerror(system_error) : quoin_status_text(status));
+  cli_put_json(text, status == QUOIN_OK ? "ok" : status == QUOIN_E_IO && system_error ? strerror(system_error) : cli_memory_status(&loaded->memory, status, &why));
   cli_puts(text, ",\"diagnostics\":[");
   int any = 0;
   size_t count = loaded->model ? quoin_model_diag_count(loaded->model) : 0;
@@ -247,7 +248,8 @@ static int run(const cli_command *self, int argc, char **argv) {
           cli_putf(&text, "snapped %zu\n", quoin_near_count(quoin_scene_snapped(loaded.scene)));
         }
       } else { /* no number of pairs is a false one */
-        cli_error("%s", quoin_status_text(status));
+        cli_why why;
+        cli_error("no near surfaces: %s", cli_memory_status(&loaded.memory, status, &why));
       }
     }
   }

@@ -47,7 +47,8 @@ static int run(const cli_command *self, int argc, char **argv, int compile) {
       compile ? quoin_scene_write_text(loaded.scene, write_out, &out) : quoin_model_write_tree(loaded.model, write_out, &out);
     int closed = cli_out_close(&out, status == QUOIN_OK);
     if (status != QUOIN_OK && closed == CLI_OK) { /* it was not the writing that failed */
-      cli_error("cannot print %s: %s", cli_quote(&q, path), quoin_status_text(status));
+      cli_why why;
+      cli_error("cannot print %s: %s", cli_quote(&q, path), cli_memory_status(&loaded.memory, status, &why));
     }
     code = closed != CLI_OK ? closed : cli_code(status);
   }

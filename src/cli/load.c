@@ -22,9 +22,14 @@ const char *cli_model_operand(const cli_command *command, const cli_common *comm
 }
 
 quoin_status cli_read(const cli_common *common, const char *path, int compile, cli_loaded *out) {
-  *out = (cli_loaded){.path = path};
+  out->path = path;
+  out->model = NULL;
+  out->scene = NULL;
+  out->read_seconds = out->compile_seconds = 0;
+  cli_memory_init(&out->memory, common->max_memory);
+  quoin_allocator counted = cli_memory_allocator(&out->memory);
   double start = cli_clock();
-  quoin_status status = quoin_model_new(NULL, &out->model);
+  quoin_status status = quoin_model_new(common->max_memory ? &counted : NULL, &out->model);
   if (status == QUOIN_OK) {
     quoin_read_options options = quoin_read_options_default();
     options.facets = common->facets;
@@ -49,7 +54,10 @@ int cli_load(const cli_common *common, const char *path, int compile, cli_loaded
   size_t errors = out->model ? cli_say_diags(out->model, common->quiet) : 0;
   if (status != QUOIN_OK && errors == 0) {
     cli_quoted q;
-    cli_error("%s: %s", cli_quote(&q, path), status == QUOIN_E_IO && system_error ? strerror(system_error) : quoin_status_text(status));
+    cli_why why;
+    const char *what = status == QUOIN_E_IO && system_error ? strerror(system_error) : cli_memory_status(&out->memory, status, &why);
+    const char *more = status == QUOIN_E_LIMIT ? " while compiling (too many solids, or transforms so deep or so fine that exact numbers grow too long)" : "";
+    cli_error("%s: %s%s", cli_quote(&q, path), what, more);
   }
   return cli_code(status);
 }

@@ -2,10 +2,12 @@
 #ifndef QN_CLI_LOAD_H
 #define QN_CLI_LOAD_H
 
+#include "cli/memory.h"
 #include "cli/options.h"
 
 typedef struct cli_loaded {
   const char *path;
+  cli_memory memory; /* --max-memory */
   quoin_model *model;
   quoin_scene *scene;
   double read_seconds, compile_seconds;

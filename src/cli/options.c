@@ -3,6 +3,7 @@
 #include "cli/say.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -173,6 +174,26 @@ int cli_take_numbers(const char *option, const char *value, int count, double *o
   return 0;
 }
 
+int cli_take_size(const char *option, const char *value, size_t *out) {
+  size_t n = 0;
+  int good = value[0] >= '0' && value[0] <= '9';
+  const char *c = value;
+  for (; *c >= '0' && *c <= '9' && good; c++) {
+    size_t digit = (size_t)(*c - '0');
+    good = n <= (SIZE_MAX - digit) / 10;
+    n = good ? 10 * n + digit : n;
+  }
+  const char *units = "KMG", *unit = *c ? strchr(units, *c == 'k' || *c == 'm' || *c == 'g' ? *c - 'a' + 'A' : *c) : NULL;
+  unsigned shift = unit ? 10 * (unsigned)(unit - units + 1) : 0;
+  if (!good || n == 0 || c[unit != NULL] != '\0' || n > SIZE_MAX >> shift) {
+    cli_quoted q;
+    cli_error("%s is not a value for --%s; give a size such as 500M: bytes, or with K, M or G", cli_quote(&q, value), option);
+    return -1;
+  }
+  *out = n << shift;
+  return 0;
+}
+
 int cli_take_decimal(const char *option, const char *value) {
   char *end;
   double v = strtod(value, &end); /* NOLINT(clang-analyzer-core.NonNullParamChecker): as above, there is one */
@@ -189,6 +210,7 @@ static int take_common(cli_common *common, int id, const char *value) {
   switch (id) {
   case CLI_QUIET: common->quiet = 1; return 0;
   case CLI_STATS: common->stats = 1; return 0;
+  case CLI_MAX_MEMORY: return cli_take_size("max-memory", value, &common->max_memory);
   case CLI_SNAP: common->snap = value; return cli_take_decimal("snap", value);
   case CLI_THREADS: return cli_take_unsigned("threads", value, 0, 1024, &common->threads);
   case CLI_FACETS:

@@ -25,12 +25,14 @@ struct cli_command {
 };
 
 /* Options every command has. */
-enum { CLI_HELP = 1, CLI_QUIET, CLI_STATS, CLI_THREADS, CLI_FACETS, CLI_SNAP, CLI_OWN };
+enum { CLI_HELP = 1, CLI_QUIET, CLI_STATS, CLI_THREADS, CLI_FACETS, CLI_MAX_MEMORY, CLI_SNAP, CLI_OWN };
 /* clang-format off */
 #define CLI_COMMON_OPTIONS \
   {CLI_THREADS, 0, "threads", "N", "use N threads; 0, the default: as many as the machine has"}, \
   {CLI_FACETS, 0, "facets", "auto|honour|ignore", "what $fn does to round primitives: auto, the default, makes a\n" \
                                                   "polygon of 3 to 12 sides written by the user, and ignores more"}, \
+  {CLI_MAX_MEMORY, 0, "max-memory", "SIZE", "fail with exit code 4 rather than take more memory than SIZE:\n" \
+                                            "bytes, or with K, M or G units of 1024; default: no limit"}, \
   {CLI_STATS, 0, "stats", NULL, "print times and counters on standard error"}, \
   {CLI_QUIET, 'q', "quiet", NULL, "hide warnings and notes"}, \
   {CLI_HELP, 'h', "help", NULL, "print this help"}, \
@@ -46,6 +48,7 @@ typedef struct cli_common {
   unsigned threads;
   quoin_facets facets;
   const char *snap; /* null: not given */
+  size_t max_memory; /* bytes; 0: no limit */
   char **operands; /* in the array that was given */
   int operand_count;
 } cli_common;
@@ -67,6 +70,8 @@ const char *cli_nearest(const char *word, const char *(*names)(const void *user,
 
 /* Values of options. Each returns 0, or non-zero after a message that names the option. */
 int cli_take_unsigned(const char *option, const char *value, unsigned long low, unsigned long high, unsigned *out);
+/* Bytes: a whole number over 0, with K, M or G for units of 1024, 1024^2 and 1024^3. */
+int cli_take_size(const char *option, const char *value, size_t *out);
 /* A decimal, 0 or more, left as text: its value is exact. */
 int cli_take_decimal(const char *option, const char *value);
 /* count numbers with commas (or spaces) between them, finite. */

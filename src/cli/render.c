@@ -162,11 +162,13 @@ static void say_nothing_seen(const job *j, const quoin_scene *scene, const char 
                              .source = ""});
 }
 
-static int render(job *j, const cli_common *common, const quoin_scene *scene, const char *path, cli_stats *figures) {
+static int render(job *j, const cli_common *common, cli_loaded *loaded, const char *path, cli_stats *figures) {
+  const quoin_scene *scene = loaded->scene;
+  cli_why why;
   size_t row = 4 * j->options.width;
-  unsigned char *pixels = malloc(row * j->options.height);
+  unsigned char *pixels = cli_memory_take(&loaded->memory, row * j->options.height);
   if (!pixels) {
-    cli_error("%s for a picture of %zu x %zu", quoin_status_text(QUOIN_E_MEMORY), j->options.width, j->options.height);
+    cli_error("no picture of %zu x %zu: %s", j->options.width, j->options.height, cli_memory_status(&loaded->memory, QUOIN_E_MEMORY, &why));
     return CLI_IO;
   }
   int show = j->progress && isatty(STDERR_FILENO);
@@ -189,7 +191,7 @@ static int render(job *j, const cli_common *common, const quoin_scene *scene, co
     say_nothing_seen(j, scene, path);
   }
   if (status != QUOIN_OK) {
-    cli_error("cannot render: %s", quoin_status_text(status));
+    cli_error("cannot render: %s", cli_memory_status(&loaded->memory, status, &why));
   } else {
     errno = 0;
     status = quoin_write_png(j->output, j->options.width, j->options.height, pixels, row);
@@ -205,7 +207,7 @@ static int render(job *j, const cli_common *common, const quoin_scene *scene, co
       code = CLI_IO;
     }
   }
-  free(pixels);
+  cli_memory_free(&loaded->memory, pixels, row * j->options.height);
   if (common->stats) {
     cli_stats_seconds(figures, "render_seconds", middle - start);
     cli_stats_seconds(figures, "write_seconds", cli_clock() - middle);
@@ -243,7 +245,7 @@ static int run(const cli_command *self, int argc, char **argv) {
   cli_stats figures = {0};
   cli_stats_load(&figures, &loaded);
   if (code == CLI_OK) {
-    code = render(&j, &common, loaded.scene, path, &figures);
+    code = render(&j, &common, &loaded, path, &figures);
   }
   if (common.stats) {
     cli_stats_say(&figures);

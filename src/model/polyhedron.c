@@ -47,7 +47,7 @@ static qn_num cross_component(qn_ctx *ctx, const qn_num *a, const qn_num *b, siz
   return qn_num_dot(ctx, 2, x, y);
 }
 
-enum { EFFORT_SIDE = 160, EFFORT_TURN = 2048 }; /* QN_MAX_EFFORT: some 2000 faces of 1000 points, or two of 700 */
+enum { EFFORT_SIDE = 256, EFFORT_TURN = 2048 }; /* QN_MAX_EFFORT: some 1800 faces of 900 points, or two faces of 700 */
 
 /* The sign of n.p - d. */
 static int side(qn_ctx *ctx, const qn_num plane[4], const qn_num *p) {

@@ -218,6 +218,11 @@ void qn_exact_of(qn_ctx *ctx, const qn_half_form *half, qn_exact_surface *out, i
 void qn_exact_free(qn_mem *mem, qn_exact_surface *exact);
 /* The map from a node's own frame to the world: its ancestors' transforms composed. */
 void qn_path_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num map[12]);
+
+/* Gives back what was taken from the context since the mark but the map's numbers: after every QN_COMPACT_STEPS maps composed, so that a deep tower of
+   transforms does not keep every step. */
+enum { QN_COMPACT_STEPS = 16 };
+void qn_map_compact(qn_ctx *ctx, qn_mark mark, qn_num map[12]);
 /* The exact half-spaces of a primitive's node under `map`. */
 qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves,
                              size_t *count);

@@ -129,16 +129,45 @@ static int is_transform(const qn_node *n) {
   return n->kind >= QN_NODE_TRANSLATE && n->kind <= QN_NODE_MULTMATRIX;
 }
 
+void qn_map_compact(qn_ctx *ctx, qn_mark mark, qn_num map[12]) {
+  int small = 1;
+  for (int i = 0; i < 12; i++) {
+    small &= map[i].kind == QN_NUM_SMALL;
+  }
+  if (small) {
+    qn_arena_release(&ctx->arena, mark);
+    return;
+  }
+  qn_ctx aside;
+  qn_num kept[12];
+  qn_ctx_init(&aside, ctx->arena.mem);
+  for (int i = 0; i < 12; i++) {
+    kept[i] = qn_num_copy(&aside, map[i]);
+  }
+  if (aside.failed == QUOIN_OK) { /* else nothing is gained, and nothing lost */
+    qn_arena_release(&ctx->arena, mark);
+    for (int i = 0; i < 12; i++) {
+      map[i] = qn_num_copy(ctx, kept[i]);
+    }
+  }
+  qn_ctx_free(&aside);
+}
+
 void qn_path_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num map[12]) {
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  size_t steps = 0;
   for (int i = 0; i < 12; i++) {
     map[i] = i % 5 == 0 ? QN_NUM_ONE : QN_NUM_ZERO;
   }
-  for (uint32_t n = model->nodes[node].parent; n != QN_NO_NODE; n = model->nodes[n].parent) {
+  for (uint32_t n = model->nodes[node].parent; n != QN_NO_NODE && ctx->failed == QUOIN_OK; n = model->nodes[n].parent) {
     if (is_transform(&model->nodes[n])) {
       qn_num outer[12], composed[12];
       qn_solid_map(ctx, model, n, outer);
       qn_map_compose(ctx, outer, map, composed);
       memcpy(map, composed, sizeof composed);
+      if (++steps % QN_COMPACT_STEPS == 0) {
+        qn_map_compact(ctx, mark, map);
+      }
     }
   }
 }
@@ -199,6 +228,7 @@ const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surfac
   qn_ctx ctx;
   qn_ctx_init(&ctx, scene->mem);
   ctx.max_bits = QN_MAX_SCENE_BITS;
+  ctx.max_effort = QN_MAX_SCENE_EFFORT;
   qn_half_form *halves;
   size_t count;
   if (qn_scene_leaf_forms(scene, s->leaf, &ctx, &halves, &count) == QN_FORM_OK && ctx.failed == QUOIN_OK) {

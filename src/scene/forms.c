@@ -1,4 +1,5 @@
 /* Exact half-spaces of leaves for comparing: the composed maps of nodes with several children are remembered. */
+#include "scene/compile.h"
 #include "scene/identity.h"
 
 #include "base/limits.h"
@@ -76,13 +77,17 @@ static quoin_status map_of(qn_forms *f, qn_ctx *ctx, uint32_t node, qn_num map[1
   for (int i = 0; i < 12; i++) {
     map[i] = start ? start->map[i] : i % 5 == 0 ? QN_NUM_ONE : QN_NUM_ZERO;
   }
-  while (depth) {
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  while (depth && ctx->failed == QUOIN_OK) {
     uint32_t n = f->path[--depth];
     if (qn_is_transform(&model->nodes[n])) {
       qn_num inner[12], composed[12];
       qn_solid_map(ctx, model, n, inner);
       qn_map_compose(ctx, map, inner, composed);
       memcpy(map, composed, sizeof composed);
+      if (depth % QN_COMPACT_STEPS == 0 && depth) {
+        qn_map_compact(ctx, mark, map);
+      }
     }
     if (model->nodes[n].first != model->nodes[n].last && !remember(f, n, map)) {
       return QUOIN_E_MEMORY;
@@ -133,6 +138,7 @@ void qn_forms_init(qn_forms *f, const qn_building *b) {
   for (size_t i = 0; i < 3; i++) {
     qn_ctx_init(all[i], b->mem);
     all[i]->max_bits = QN_MAX_SCENE_BITS;
+    all[i]->max_effort = QN_MAX_SCENE_EFFORT + QN_SCENE_EFFORT_PER_NODE * (uint64_t)b->model->node_count;
   }
 }
 

@@ -188,6 +188,7 @@ quoin_status qn_maps_init(qn_maps *maps, const quoin_model *model, qn_mem *mem) 
   qn_ctx_init(&maps->exact, mem);
   qn_ctx_init(&maps->scratch, mem);
   maps->exact.max_bits = maps->scratch.max_bits = QN_MAX_SCENE_BITS;
+  maps->exact.max_effort = maps->scratch.max_effort = QN_MAX_SCENE_EFFORT + QN_SCENE_EFFORT_PER_NODE * (uint64_t)model->node_count;
   if (!qn_grow(mem, &maps->stack, &maps->capacity, 1)) {
     return QUOIN_E_MEMORY;
   }

@@ -22,8 +22,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many candidates are compared before the search for all pairs is cut, and how many pairs are kept. A search for a snap is never cut. */
-enum { COMPARED = 1 << 26, KEPT = 1 << 18, COMPARED_USERS = 4096 };
+/* How many candidates are compared, in doubles and exactly (some 3 us each: concentric spheres all meet here), before the search for all pairs is cut, and how
+   many pairs are kept. A search for a snap is never cut. */
+enum { COMPARED = 1 << 26, COMPARED_EXACTLY = 1 << 19, KEPT = 1 << 18, COMPARED_USERS = 4096 };
 /* --- one surface ----------------------------------------------------------------------------------------------------- */
 
 /* Users of the two whose boxes come close; where there are very many, their hulls answer. */
@@ -94,6 +95,10 @@ static quoin_status compare(qn_near_finder *f, uint32_t i, int *stands) {
     uint32_t other = f->found[k], leaf[2] = {f->scene->surfaces[i].leaf, f->scene->surfaces[other].leaf};
     if ((k && other == f->found[k - 1]) || (f->want == QN_NEAR_ALL && !users_close(f, i, other, leaf))) {
       continue;
+    }
+    if (f->want == QN_NEAR_ALL && f->compared_exactly++ >= COMPARED_EXACTLY) {
+      f->out->cut = 1;
+      break;
     }
     const qn_exact_surface *x = qn_scene_exact(f->scene, i, NULL), *y = qn_scene_exact(f->scene, other, NULL);
     if (!x || !y) {

@@ -52,7 +52,7 @@ typedef struct qn_near_finder {
   unsigned levels, centre_levels; /* bits: those that are asked at */
   uint32_t *found;
   size_t found_count, found_capacity;
-  size_t compared;
+  size_t compared, compared_exactly;
   uint32_t *users, *users_of; /* leaves by surface, from users_of[i] to users_of[i + 1] */
   double unit;
   const qn_near_item *asking; /* of qn_near_boxes */

@@ -148,9 +148,13 @@ static void number(qn_lexer *lx) {
   size_t read = qn_num_read(lx->numbers, text + start, at - start, &lx->token.number, &status);
   if (status == QUOIN_E_LIMIT) {
     lx->token.kind = QN_T_BAD;
-    if (digits > QN_MAX_DIGITS) {
+    size_t counted = 0; /* those from the first that is not 0, as the number's reader counts them */
+    for (const char *c = text + start; c < text + at && *c != 'e' && *c != 'E'; c++) {
+      counted += *c != '.' && (counted > 0 || *c != '0');
+    }
+    if (counted > QN_MAX_DIGITS) {
       qn_tell(lx->reporter, QN_Q0902, start, at - start, "at most 10000 digits are read", "shorten it",
-              "number too long: %zu digits", digits);
+              "number too long: %zu digits", counted);
     } else {
       qn_tell(lx->reporter, QN_Q0903, start, at - start, "its decimal exponent is beyond 4000", "use other units",
               "number out of range");

@@ -19,7 +19,7 @@ class Help(Case):
         for command in COMMANDS:
             r = self.good(run(command, "--help"))
             self.assertTrue(r.out.startswith(f"Usage: quoin {command} "), r)
-            for option in ("--threads", "--stats", "--help", "--quiet", "--facets"):
+            for option in ("--threads", "--stats", "--help", "--quiet", "--facets", "--max-memory"):
                 self.assertIn(option, r.out)
             self.assertEqual(run("help", command).out, r.out)
             self.assertEqual(run(command, "-h").out, r.out)

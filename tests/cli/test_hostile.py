@@ -1,0 +1,168 @@
+"""Hostile files: each gets an answer or a clear error in seconds, within the memory that --max-memory allows, and nothing is left half written."""
+import os
+import resource
+import subprocess
+import time
+
+from quoin import Case, PROGRAM, main
+
+DEEP = 100000
+SANITIZED = bool(os.environ.get("QUOIN_SANITIZED"))
+SECONDS = 2.0 * (10 if SANITIZED else 3)  # 2 s on an idle machine; of processor time, which a busy one stretches
+
+
+def doubling(last):
+    """Vectors of two vectors of two vectors: 2^61 numbers in a thousand bytes."""
+    return "v0 = [1, 1];" + "".join(f"v{i + 1} = [v{i}, v{i}];" for i in range(60)) + last
+
+
+def repeated(what, count):
+    return "".join(f"x{i} = {what};" for i in range(count))
+
+
+class Hostile(Case):
+    def ask(self, text, codes, *words, command="check", options=("--max-memory", "1G", "--threads", "1"), path=None, stdin=subprocess.DEVNULL):
+        """Runs the command on a text: one of the codes, each of the words on standard error, in time. Gives what it said and the memory it took, in MB."""
+        path = path or self.model(text)
+        before = time.monotonic()
+        with open(self.folder / "err", "wb") as err, open(self.folder / "out", "wb") as out:
+            child = subprocess.Popen([PROGRAM, command, *options, str(path)], stdin=stdin, stdout=out, stderr=err,
+                                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 60)))
+            _, status, used = os.wait4(child.pid, 0)
+            child.returncode = os.waitstatus_to_exitcode(status)
+        said = (self.folder / "err").read_text("utf-8", "replace")
+        self.assertIn(child.returncode, codes, said[:2000])
+        for word in words:
+            self.assertIn(word, said)
+        self.assertNotIn("Sanitizer", said)
+        self.assertLess(len(said), 200000)
+        self.assertLess(used.ru_utime + used.ru_stime, SECONDS, f"{time.monotonic() - before:.1f} s by the clock")
+        return said, 0 if SANITIZED else used.ru_maxrss / 1024
+
+    # --- nesting
+
+    def test_brackets_nested_deep(self):
+        self.ask("{" * DEEP, [3], "never closed")
+        self.ask("{" * DEEP + "cube(1);" + "}" * DEEP, [0])
+        self.ask("cube(" + "(" * DEEP + "1" + ")" * DEEP + ");", [0])
+        self.ask("x = " + "[" * DEEP + "1" + "]" * DEEP + ";", [3], "Q0901")
+        self.ask("x = " + "[" * DEEP, [3])
+        self.ask("}" * DEEP, [3], "Q0204")
+        self.ask("x = " + "-" * DEEP + "1; y = " + "!" * DEEP + "1; z = " + "1?" * DEEP + "1" + ":0" * DEEP + ";", [0])
+        self.ask("x = " + "abs(" * DEEP + "1" + ")" * DEEP + ";", [0])
+        self.ask("{" * 200001, [3], "Q0901")
+
+    def test_statements_nested_deep(self):
+        for word in ("union()", "difference()", "translate([1, 2, 3])", "rotate([90, 0, 0])", "mirror([1, 0, 0])", 'name("a")', "color([1, 0, 0])"):
+            self.ask(word * DEEP + "cube(1);", [0])
+        self.ask("difference() { cube(2);" * 20000 + "sphere(1);" + "}" * 20000, [0])
+
+    def test_transforms_whose_numbers_grow(self):
+        for word in ("scale(3)", "scale(2)", "scale(1/3)", "multmatrix([[3, 1, 0, 1], [0, 5, 1, 1], [1, 0, 7, 1]])"):
+            said, _ = self.ask(word * DEEP + "cube(1);", [3], "a limit was met")
+            self.assertEqual(said.count("\n"), 1)
+            self.ask(word * 200 + "cube(1);", [0])
+
+    def test_concentric_spheres(self):
+        self.ask("".join(f"difference() {{ sphere({i + 1});" for i in range(3000)) + "}" * 3000, [0])
+
+    # --- numbers
+
+    def test_huge_exponents(self):
+        for number in ("1e999999999", "1e-9999999999", "1E+99999999999999999999999", "0.1e4002", "1e4001"):
+            self.ask(f"cube({number});", [3], "Q0903")
+        self.ask("cube(0e99999999999999999999); sphere(1e4000);", [0])
+
+    def test_a_million_digits(self):
+        million = 10 ** 6
+        self.ask("cube(" + "7" * million + ");", [3], "Q0902")
+        self.ask("cube(0." + "9" * million + ");", [3], "Q0902")
+        self.ask("cube(" + "0" * million + "1);", [0])
+        self.ask("cube(1e" + "0" * million + "1);", [0])
+        self.ask("cube(0." + "0" * million + "1);", [3], "Q0903")
+        self.ask("sphere(0." + "7" * 9999 + ");", [3], "Q0904")
+
+    def test_numbers_that_grow(self):
+        self.ask("x = 2" + "^9" * 40 + ";", [3])
+        self.ask("a0 = 3;" + "".join(f"a{i + 1} = a{i} * a{i};" for i in range(60)), [3], "Q0904")
+        self.ask("a0 = 1/3;" + "".join(f"a{i + 1} = a{i} * a{i} + a{i} / 7;" for i in range(30)), [3], "Q0904")
+
+    def test_long_numbers_again_and_again(self):
+        head = "a = 3^80000; b = 7^40000; c = 1/3^40000;"
+        for what in ("a/b", "a % b", "3^80000", "sqrt(a)", "a^(1/3)", "c + 1/b", "a == b", "floor(a/b)"):
+            self.ask(head + repeated(what, 20000), [3, 0])
+        self.ask(head + "echo(a);" * 20000, [3], "Q0910")
+        self.ask("a = 3^20000;" + "cube(a);" * 50000, [3], "Q0910")
+
+    # --- values
+
+    def test_vectors_that_double(self):
+        for last in ("x = v60 + v60;", "x = -v60;", "x = v60 * 2;", "x = 2 / v60;", "w0 = [1, 1];" + "".join(f"w{i + 1} = [w{i}, w{i}];" for i in range(60)) + "x = v60 == w60;"):
+            _, memory = self.ask(doubling(last), [3], "Q0910")
+            self.assertLess(memory, 700)
+        self.ask(doubling("echo(v60); cube(len(v60));"), [0])
+
+    def test_matrices(self):
+        row = "r = [" + ",".join(["1"] * 1000) + "]; m = [" + ",".join(["r"] * 1000) + "];"
+        for last in ("x = m * m;", repeated("m * r", 300), repeated("r * m", 300), repeated("m + m", 300)):
+            self.ask(row + last, [3], "Q0910")
+        self.ask(row + "x = m * r;", [0])
+        self.ask("v = [" + "1," * 100000 + "1];" + repeated("max(v)", 10000), [3], "Q0910")
+
+    def test_strings(self):
+        s = 's = "' + "\u00e9" * 50000 + '";'
+        self.ask(s + repeated("s[49999]", 50000), [3], "Q0910")
+        self.ask(s + repeated("len(s)", 50000), [3], "Q0910")
+        self.ask(s + "name(s) cube(1);" * 5000, [3], "Q0910")
+
+    def test_much_of_one_thing(self):
+        self.ask("x = 1;" * DEEP, [0], "Q0308", "more of Q0308")
+        self.ask("cube(q);" * DEEP, [3], "Q0908")
+        self.ask("cube(0);" * DEEP, [0], "more of Q0501")
+        self.ask("cube(" + "1," * DEEP + "1);", [0])
+        self.ask(";" * 10 ** 6 + "sphere(1);" * DEEP, [0])
+        self.ask("polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], faces = [" + "[0,1,2]," * DEEP + "]);", [3], "Q0907")
+        self.ask("cylinder(h = 1, r = 1, $fn = 1e300);", [0, 3], options=("--facets", "honour"))
+
+    # --- bytes
+
+    def test_bytes_that_are_no_text(self):
+        for text in (b"cube(1);\0", b"\0" * DEEP, "cube(1);".encode("utf-16-le"), "\ufeffcube(1);".encode("utf-16"), "cube(1);".encode("utf-32")):
+            self.ask(text, [3], "Q0101")
+        self.ask(b"cube(1); \xff\xfe\xc0\x80", [3], "Q0102")
+        self.ask(b'name("\xed\xa0\x80") cube(1);', [3], "Q0102")
+        self.ask(bytes(range(128, 256)) * 5000, [3], "Q0102")
+        self.ask(b"\xef\xbb\xbfcube(1);", [0])
+        self.ask(b"cube(1);\r\nsphere(2); // a comment\r\n", [0])
+        self.ask(b"cube(1);\r" * DEEP, [0])
+
+    def test_what_never_ends(self):
+        self.ask("/*" * DEEP, [3], "Q0104")
+        self.ask('"' * (DEEP + 1), [3], "Q0103")
+        self.ask('"\n' * DEEP, [3])
+        self.ask('x = "' + "\\q" * DEEP, [3], "Q0105")
+        self.ask("cube(" + "a /* */ " * DEEP, [3])
+        self.ask("/" * DEEP, [0])
+
+    def test_nothing_and_a_lot_of_nothing(self):
+        self.ask("", [0])
+        hundred = 10 ** (7 if SANITIZED else 8)
+        for text in (b" " * hundred, b"\n" * hundred, b"//" + b"x" * hundred, b"/*" + b"*" * hundred + b"*/"):
+            self.ask(text, [0])
+            self.ask(text, [4], "--max-memory", options=("--max-memory", "5M" if SANITIZED else "50M"))
+
+    # --- files
+
+    def test_no_file(self):
+        self.ask(None, [4], "Q0801", path=self.folder)
+        self.ask(None, [4], "Q0801", path=self.folder / "not there")
+        self.ask(None, [0], path="/dev/null")
+        with open("/dev/zero", "rb") as zero:
+            _, memory = self.ask(None, [4], "--max-memory", path="-", stdin=zero, options=("--max-memory", "100M"))
+            self.assertLess(memory, 150)
+        _, memory = self.ask(None, [4], "--max-memory", path="/dev/zero", options=("--max-memory", "100M"))
+        self.assertLess(memory, 150)
+
+
+if __name__ == "__main__":
+    main()
