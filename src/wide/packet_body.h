@@ -10,6 +10,7 @@
 #define QN_WIDE_PACKET_BODY_H
 
 #include "wide/facts.h"
+#include "wide/lasts.h"
 #include "wide/term.h"
 
 static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best);
@@ -297,10 +298,18 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
   }
   waiting stack[STACK];
   int top = push_children(w, un->root, meets, near, stack, 0);
+#if QN_LANES_NOW == 64
+  lasts last;
+  fstore(last.of, fset(end)), fstore(last.of + 8, fset(end));
+  uint64_t changed = 0;
+#endif
   for (int stale = 0;;) { /* stale: `end` is from before a place was found */
     if (better) {
       found |= better;
       mask &= any ? ~better : ~(uint64_t)0;
+#if QN_LANES_NOW == 64
+      changed |= better;
+#endif
       better = 0, stale = 1;
       if (!mask) {
         return found & ~w->unsure;
@@ -311,15 +320,27 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
         return found & ~w->unsure;
       }
     } while (stack[--top].near > end);
+    uint64_t within = ~(uint64_t)0;
+#if QN_LANES_NOW == 64
+    if (stale) {
+      see_lasts(w, best, mask & ~w->unsure, changed, &last);
+      end = last_of_all(&last), stale = 0, changed = 0;
+      if (stack[top].near > end) {
+        continue;
+      }
+    }
+    within = lanes_before(&last, stack[top].near);
+#else
     if (stale && (QN_LANES_NOW == 1 || !(stack[top].node & QN_BVH_LEAF))) { /* of many lanes, as much work as a leaf: worth it for nodes only */
       end = latest(w, best, mask & ~w->unsure), stale = 0;
       if (stack[top].near > end) {
         continue;
       }
     }
+#endif
     uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
-      uint64_t in = subs_meet_child(w, &w->normal->nodes[stack[top].parent], stack[top].slot) & mask & ~w->unsure;
+      uint64_t in = subs_meet_child(w, &w->normal->nodes[stack[top].parent], stack[top].slot) & mask & within & ~w->unsure;
       if (in) {
         term_enter(w, &terms[at & ~QN_BVH_LEAF], from, in, best, &better);
         if (!top) {
