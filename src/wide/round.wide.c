@@ -91,11 +91,30 @@ static unsigned round_group_of_balls(const struct quoin_scene *scene, const qn_p
   return ball_round_lanes(packet, hits, &b, at, t) & balls;
 }
 
+/* A tile that is all on one leaf, as most of a large one's are. */
+static int all_on_one(const uint32_t leaves[QN_LANES]) {
+  uint32_t differ = 0;
+  for (int i = 1; i < QN_LANES; i++) {
+    differ |= leaves[i] ^ leaves[0];
+  }
+  return !differ;
+}
+
 static uint64_t round_balls(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double *t) {
   const qn_piece_sphere *last = NULL;
   uint32_t leaf = UINT32_MAX;
   uint64_t sure = 0;
   ball b;
+  if (!~lanes && all_on_one(hits->leaf)) {
+    last = sphere_of_lane(scene, hits, 0);
+    if (last) {
+      b = ball_of_one(packet, last);
+      for (unsigned at = 0; at < QN_LANES; at += QN_W) {
+        sure |= (uint64_t)ball_round_lanes(packet, hits, &b, at, t) << at;
+      }
+    }
+    return sure;
+  }
   for (uint64_t m = lanes; m;) {
     const unsigned first = qn_trailing_zeros(m), at = first / QN_W * QN_W, in = (unsigned)(m >> at) & QN_ALL_BITS;
     m &= ~((uint64_t)QN_ALL_BITS << at);
