@@ -14,7 +14,7 @@
 enum {
   MOST_THREADS = 256, /* the library uses no more either */
   BLOCK = 1 << 20, /* bytes of input taken at once, and the longest line */
-  CHUNK = 1 << 13, /* bytes of input one thread takes at once, at most */
+  CHUNK = 1 << 17, /* bytes of input one thread takes at once, at most */
   FEWEST = 1 << 8, /* and at least */
   SPILL = 1 << 20 /* bytes of answers a thread keeps while others have to write first */
 };

@@ -4,9 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static int is_blank(char c) {
-  return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\v' || c == '\f';
-}
+/* What a byte of a line is. */
+enum { PART, BLANK, COMMENT, NUL };
+static const unsigned char KIND[256] = {['\0'] = NUL, [' '] = BLANK, ['\t'] = BLANK, [','] = BLANK, ['\r'] = BLANK, ['\v'] = BLANK, ['\f'] = BLANK, ['#'] = COMMENT};
+static unsigned kind_of(const char *at) { return KIND[(unsigned char)*at]; }
 
 void cli_row_cut(cli_row *row, char *line, char *end) {
   row->line = line;
@@ -15,20 +16,23 @@ void cli_row_cut(cli_row *row, char *line, char *end) {
   row->junk = NULL;
   char *at = line;
   while (row->count <= CLI_MAX_NUMBERS) {
-    while (at < end && is_blank(*at)) {
+    while (at < end && kind_of(at) == BLANK) {
       at++;
     }
-    if (at == end || *at == '#') {
+    if (at == end || kind_of(at) == COMMENT) {
       return;
     }
     char *start = at;
-    while (at < end && !is_blank(*at) && *at != '#') {
-      if (*at == '\0' && !row->junk) {
-        row->junk = at;
+    for (;; at++) {
+      while (at < end && kind_of(at) == PART) {
+        at++;
       }
-      at++;
+      if (at == end || kind_of(at) != NUL) {
+        break;
+      }
+      row->junk = row->junk ? row->junk : at;
     }
-    int comment = at < end && *at == '#';
+    int comment = at < end && kind_of(at) == COMMENT;
     unsigned i = row->count++;
     row->numbers[i] = start;
     row->cut[i] = at;

@@ -85,6 +85,8 @@ QN_NODISCARD int qn_num_quick_square(qn_num a, double *out);
    exactly. Returns the bytes read; 0 for what is no decimal, or has more than 19 digits that count or an unusual exponent, and is left to
    qn_num_read. No memory. Cost: 10 to 25 ns. */
 size_t qn_decimal_quick(const char *text, double *nearest, int *exact);
+/* The same, with what the nearest double lacks: to 2^-104 of the number; 0 where nothing. */
+size_t qn_decimal_quick_pair(const char *text, double *high, double *low);
 
 /* The value as the shortest text that reads back to it: "0.1", "2.5e-07", "(1/3)", and for a rounded number
    "rounded(M/2^K)" or "rounded(M*2^K)". Into the arena; null on failure. */

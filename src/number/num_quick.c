@@ -173,7 +173,8 @@ QN_INLINE unsigned digit_of(char c) {
   return (unsigned)(unsigned char)c - '0'; /* above 9 when it is none */
 }
 
-size_t qn_decimal_quick(const char *text, double *nearest_out, int *exact) {
+/* rest: null, or set to what the nearest double lacks, rounded. */
+QN_INLINE size_t read_decimal(const char *text, double *nearest_out, int *exact, double *rest) {
   const char *at = text + (*text == '-' || *text == '+'), *first, *point;
   uint64_t m = 0;
   unsigned d;
@@ -217,6 +218,9 @@ size_t qn_decimal_quick(const char *text, double *nearest_out, int *exact) {
   if (m == 0) {
     *nearest_out = 0;
     *exact = 1;
+    if (rest) {
+      *rest = 0;
+    }
     return (size_t)(at - text);
   }
   if (scale < -QN_FIVES_ || scale > QN_FIVES_) {
@@ -225,8 +229,23 @@ size_t qn_decimal_quick(const char *text, double *nearest_out, int *exact) {
   quotient r = divide((qn_u128)m * (scale > 0 ? qn_five_to_[scale] : 1), scale < 0 ? (int)-scale : 0, (int)scale);
   unsigned cut;
   uint64_t low, top = top_of(&r, &cut, &low);
-  double v = scaled(top + (uint64_t)rounds_up(&r, top, cut, low), r.e + (int)cut);
+  const int up = rounds_up(&r, top, cut, low);
+  double v = scaled(top + (uint64_t)up, r.e + (int)cut);
   *nearest_out = *text == '-' ? -v : v;
   *exact = low == 0 && r.rest == 0;
+  if (rest) { /* docs/bounds.md, "Lines of decimals" */
+    double part = (double)low + (double)r.rest / (double)r.d;
+    part = (up ? part - (double)(UINT64_C(1) << cut) : part) * scaled(1, r.e);
+    *rest = *text == '-' ? -part : part;
+  }
   return (size_t)(at - text);
+}
+
+size_t qn_decimal_quick(const char *text, double *nearest_out, int *exact) {
+  return read_decimal(text, nearest_out, exact, NULL);
+}
+
+size_t qn_decimal_quick_pair(const char *text, double *high, double *low) {
+  int exact;
+  return read_decimal(text, high, &exact, low);
 }

@@ -6,15 +6,15 @@
 
    Legend: the line is o + t d = o' + t' d with t' = t + s and o' = o - s d as rounded. */
 #include "base/bounds.h"
+#include "query/across.h"
 #include "query/look.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { RUN = 4096, FEWEST = 2 * QN_FEW, AXIS_BITS = 10, RAY_BITS = 12, DIGIT_BITS = 10 }; /* RUN: rays that are sorted at once, at most */
+enum { RUN = QN_ACROSS_MOST, FEWEST = 2 * QN_FEW };
 /* How many times as wide as things are apart (work->apart) a packet may be: as rays of one direction or of several come; sorted; and from where on starts are moved. Measured on the scenes of tools/bench. */
 enum { WIDE_AS_GIVEN = 2, WIDE_ANY_WAY = 3, WIDE_SORTED = 5, WIDE_AS_IS = 1 };
-_Static_assert(RUN == 1 << RAY_BITS && 2 * AXIS_BITS + RAY_BITS == 32 && 2 * AXIS_BITS == 2 * DIGIT_BITS, "a place and a ray's number are one word");
 
 typedef struct asked {
   quoin_work *work;
@@ -25,66 +25,8 @@ typedef struct asked {
   qn_packet packet;
   uint16_t rest[RUN]; /* rays that wait to be sorted; of one direction */
   size_t rest_count;
-  uint32_t key[2][RUN];
+  qn_across_room room;
 } asked;
-
-/* Bits 0 to 9 at every other place. */
-static uint32_t spread(uint32_t x) {
-  x = (x | x << 8) & 0x00ff00ffu;
-  x = (x | x << 4) & 0x0f0f0f0fu;
-  x = (x | x << 2) & 0x33333333u;
-  return (x | x << 1) & 0x55555555u;
-}
-
-static uint32_t step_of(double x, double scale) { /* which is no number where rays are as far apart as doubles are */
-  const double y = x * scale;
-  return !(y >= 0) ? 0 : y < (1 << AXIS_BITS) - 1 ? (uint32_t)y : (1 << AXIS_BITS) - 1;
-}
-
-/* Two directions across d, of about its length; about: they decide only what is faster. */
-static void across(const double d[3], double u[3], double v[3]) {
-  const double x = fabs(d[0]), y = fabs(d[1]), z = fabs(d[2]);
-  const int least = x <= y && x <= z ? 0 : y <= z ? 1 : 2, a = (least + 1) % 3, b = (least + 2) % 3;
-  const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), e[3] = {d[0] / size, d[1] / size, d[2] / size};
-  u[least] = 0, u[a] = -e[b], u[b] = e[a];
-  v[0] = e[1] * u[2] - e[2] * u[1], v[1] = e[2] * u[0] - e[0] * u[2], v[2] = e[0] * u[1] - e[1] * u[0];
-}
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/* Puts the rays that wait in the order of a Z curve across their direction. */
-static void sort_rest(asked *a) {
-  double u[3], v[3], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-  across(a->rays[a->rest[0]].d, u, v);
-  for (size_t i = 0; i < a->rest_count; i++) {
-    const double *o = a->rays[a->rest[i]].o, x = dot(o, u), y = dot(o, v);
-    low[0] = x < low[0] ? x : low[0], high[0] = x > high[0] ? x : high[0];
-    low[1] = y < low[1] ? y : low[1], high[1] = y > high[1] ? y : high[1];
-  }
-  const double wide = high[0] - low[0] > high[1] - low[1] ? high[0] - low[0] : high[1] - low[1], scale = (1 << AXIS_BITS) / wide;
-  uint32_t count[2][1 << DIGIT_BITS];
-  memset(count, 0, sizeof count);
-  for (size_t i = 0; i < a->rest_count; i++) {
-    const double *o = a->rays[a->rest[i]].o;
-    const uint32_t place = spread(step_of(dot(o, u) - low[0], scale)) | spread(step_of(dot(o, v) - low[1], scale)) << 1;
-    a->key[0][i] = place << RAY_BITS | a->rest[i];
-    count[0][place & ((1 << DIGIT_BITS) - 1)]++, count[1][place >> DIGIT_BITS]++;
-  }
-  for (int pass = 0; pass < 2; pass++) {
-    uint32_t sum = 0;
-    for (size_t k = 0; k < 1 << DIGIT_BITS; k++) {
-      const uint32_t here = count[pass][k];
-      count[pass][k] = sum, sum += here;
-    }
-    for (size_t i = 0; i < a->rest_count; i++) {
-      const uint32_t key = a->key[pass][i];
-      a->key[!pass][count[pass][key >> (RAY_BITS + pass * DIGIT_BITS) & ((1 << DIGIT_BITS) - 1)]++] = key;
-    }
-  }
-  for (size_t i = 0; i < a->rest_count; i++) {
-    a->rest[i] = (uint16_t)(a->key[0][i] & (RUN - 1));
-  }
-}
 
 /* A bit each to a byte each. */
 static void put_bytes(unsigned bits, uint8_t out[8]) {
@@ -147,7 +89,7 @@ static void move_starts(asked *a) {
 }
 
 static quoin_status answer_rest(asked *a) {
-  sort_rest(a);
+  qn_sort_across(a->rays, a->rest_count, a->rest, &a->room);
   quoin_status status = QUOIN_OK;
   for (size_t at = 0; at < a->rest_count && status == QUOIN_OK;) {
     const unsigned n = a->rest_count - at < QN_LANES ? (unsigned)(a->rest_count - at) : QN_LANES;

@@ -1,5 +1,4 @@
 /* All stretches of a ray, as the public answer: places become correctly rounded parameters, ends get their part and surface. */
-#include "query/decimals.h"
 #include "query/look.h"
 #include "query/sheaf.h"
 
@@ -47,20 +46,8 @@ static quoin_status answer(quoin_work *work, qn_line *line, const qn_range *rang
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* Finite, a direction, and a range that is not empty of sense. */
-static int is_ray(const quoin_ray *ray) {
-  int any = 0;
-  for (int i = 0; i < 3; i++) {
-    if (!isfinite(ray->o[i]) || !isfinite(ray->d[i])) {
-      return 0;
-    }
-    any |= ray->d[i] != 0;
-  }
-  return any && ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL; /* a NaN fails the first */
-}
-
 quoin_status quoin_ray_intervals(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, unsigned want, quoin_intervals *out) {
-  if (!scene || !work || work->scene != scene || !ray || !out || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS) || !is_ray(ray)) {
+  if (!scene || !work || work->scene != scene || !ray || !out || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS) || !qn_is_ray(ray)) {
     return QUOIN_E_ARGUMENT;
   }
   qn_line line;
@@ -107,9 +94,7 @@ static double spread(const quoin_scene *scene, size_t n, const quoin_ray *rays) 
   return most;
 }
 
-/* How many of the next n rays are to go as one packet: a whole one, a few, or 1; the next *alone rays are known to go one by one. Rays that go one way but pass far from one another meet few leaves together: 64 of
-   them took four times what they take one by one. In an unbounded solid only their directions count. */
-static size_t share(const quoin_scene *scene, size_t n, const quoin_ray *rays, size_t *alone) {
+size_t qn_rays_share(const quoin_scene *scene, size_t n, const quoin_ray *rays, size_t *alone) {
   double side = 0;
   if (*alone) {
     --*alone;
@@ -135,14 +120,14 @@ quoin_status quoin_ray_intervals_many(const quoin_scene *scene, quoin_work *work
   }
   size_t alone = 0, good = 0; /* good: where the rays end that are known to be ones; the answers before a wrong one are given */
   for (size_t at = 0, count; at < n; at += count) {
-    while (good < n && good - at < QN_LANES && is_ray(&rays[good])) {
+    while (good < n && good - at < QN_LANES && qn_is_ray(&rays[good])) {
       good++;
     }
     if (good == at) {
       return QUOIN_E_ARGUMENT;
     }
     quoin_status status;
-    count = want & QUOIN_WANT_CONTACTS ? 1 : share(scene, good - at, rays + at, &alone);
+    count = want & QUOIN_WANT_CONTACTS ? 1 : qn_rays_share(scene, good - at, rays + at, &alone);
     if (want & QUOIN_WANT_CONTACTS) {
       quoin_intervals one;
       status = quoin_ray_intervals(scene, work, &rays[at], want, &one);
@@ -210,81 +195,4 @@ quoin_status quoin_ray_intervals_text(const quoin_scene *scene, quoin_work *work
   }
   qn_line_from_numbers(ctx, v, v + 3, &line);
   return ctx->failed != QUOIN_OK ? ctx->failed : answer(work, &line, &range, want, out);
-}
-
-/* --- many rays of decimals ------------------------------------------------------------------------------------------ */
-
-/* Some rays as packets take them. */
-typedef struct bunch {
-  quoin_ray rays[QN_LANES];
-  double low[QN_LANES][6];
-} bunch;
-
-/* Reads up to `most` rays into b; how many. It stops before one that packets do not take. */
-static size_t read_bunch(size_t most, const char *const *text, double from, double to, bunch *b) {
-  for (size_t n = 0; n < most; n++, text += 6) {
-    quoin_ray *ray = &b->rays[n];
-    ray->from = from, ray->to = to;
-    for (int k = 0; k < 6; k++) {
-      double *high = k < 3 ? &ray->o[k] : &ray->d[k - 3];
-      if (n && text[k] && strcmp(text[k], text[k - 6]) == 0) { /* rays of one direction, or from one eye */
-        *high = k < 3 ? ray[-1].o[k] : ray[-1].d[k - 3], b->low[n][k] = b->low[n - 1][k];
-      } else if (!qn_decimal_pair(text[k], high, &b->low[n][k])) {
-        return n;
-      }
-    }
-    if (!is_ray(ray)) {
-      return n;
-    }
-  }
-  return most;
-}
-
-/* An end of the range as a double; 0 when it is none. */
-static int end_of_range(const char *text, double none, double *out) {
-  double low;
-  *out = none;
-  return !text || (qn_decimal_pair(text, out, &low) && low == 0);
-}
-
-static quoin_status line_of_text(quoin_work *work, const void *user, size_t i, qn_line *line) {
-  const char *const *text = user;
-  return qn_decimal_line(work, text + 6 * i, line);
-}
-
-quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *rays, const char *from, const char *to,
-                                           unsigned want, int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
-  if (!scene || !work || work->scene != scene || !each || (n != 0 && !rays) || want > (QUOIN_WANT_BOUNDARY | QUOIN_WANT_CONTACTS)) {
-    return QUOIN_E_ARGUMENT;
-  }
-  double begin, end;
-  const int doubles = end_of_range(from, -HUGE_VAL, &begin) & end_of_range(to, HUGE_VAL, &end) & ((want & QUOIN_WANT_CONTACTS) == 0);
-  bunch b;
-  size_t have = 0, alone = 0; /* have: rays in b */
-  for (size_t at = 0, count, used = 0; at < n; at += count) {
-    if (used == have) {
-      have = doubles ? read_bunch(n - at < QN_LANES ? n - at : QN_LANES, rays + 6 * at, begin, end, &b) : 0;
-      used = 0;
-    }
-    count = have > used ? share(scene, have - used, b.rays + used, &alone) : 1;
-    uint64_t sure = 0;
-    quoin_status status = have > used ? qn_sheaf_rays(work, count, b.rays + used, b.low + used, line_of_text, rays + 6 * at, &sure) : QUOIN_OK;
-    used += have > used ? count : 0;
-    for (size_t i = 0; i < count && status == QUOIN_OK; i++) {
-      const qn_sheaf *sheaf = work->sheaf;
-      quoin_intervals one = {0};
-      if (sure >> i & 1) {
-        one = (quoin_intervals){sheaf->first[i + 1] - sheaf->first[i], sheaf->found ? sheaf->found + sheaf->first[i] : NULL, 0, work->boundary, 0, work->contacts};
-      } else {
-        status = quoin_ray_intervals_text(scene, work, rays + 6 * (at + i), from, to, want, &one);
-      }
-      if (status == QUOIN_OK && each(user, at + i, &one) != 0) {
-        status = QUOIN_E_CANCELLED;
-      }
-    }
-    if (status != QUOIN_OK) {
-      return status;
-    }
-  }
-  return QUOIN_OK;
 }

@@ -44,6 +44,10 @@ quoin_status qn_look_woven_blocked(quoin_work *work, const quoin_ray *ray, uint8
 /* The same for lanes that are in a packet already. *met: the lanes that meet a boundary; the others' entries are not set. */
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met);
 
+/* How many of the next n rays are to go as one packet: a whole one, a few, or 1; the next *alone rays are known to go one by one. Rays that go one way but pass far from one another meet few leaves together: 64 of
+   them took four times what they take one by one. In an unbounded solid only their directions count. */
+size_t qn_rays_share(const quoin_scene *scene, size_t n, const quoin_ray *rays, size_t *alone);
+
 /* Whether a packet of these rays pays. */
 int qn_rays_together(const quoin_ray *rays, size_t n);
 /* Puts n rays into the first lanes of a packet of `lanes` lanes. */

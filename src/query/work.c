@@ -51,6 +51,7 @@ void quoin_work_free(quoin_work *work) {
   qn_free_line(mem, work->point_walk, sizeof *work->point_walk);
   qn_query_locals_free(work);
   qn_sheaf_free(work);
+  qn_text_rays_free(work);
   qn_free(mem, work, sizeof *work);
 }
 

@@ -20,6 +20,7 @@ typedef struct qn_local {
 #define QN_NO_LOCAL UINT32_MAX
 
 typedef struct qn_sheaf qn_sheaf; /* sheaf.h */
+typedef struct qn_text_rays qn_text_rays; /* text_rays.c */
 
 /* How long wide code may walk before a ray is woven instead; see packets.c. */
 typedef struct qn_patience { uint32_t fair, lost, turn; int learns; } qn_patience;
@@ -50,6 +51,7 @@ struct quoin_work {
   quoin_end *contacts;       size_t contact_capacity;
 
   qn_sheaf *sheaf; /* of rays in packets; made when first needed */
+  qn_text_rays *text_rays; /* a block of rays of decimals; made when first needed */
 
   qn_local *locals; /* QN_LOCALS of them, by leaf modulo; made when first needed */
 };
@@ -83,5 +85,6 @@ quoin_status qn_query_side(quoin_work *work, qn_query_point *point, quoin_side *
 /* The leaf's coordinates; null when memory is refused. */
 const qn_local *qn_query_local(quoin_work *work, uint32_t leaf);
 void qn_query_locals_free(quoin_work *work);
+void qn_text_rays_free(quoin_work *work);
 
 #endif
