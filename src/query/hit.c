@@ -48,7 +48,8 @@ static quoin_status describe(quoin_work *work, const quoin_ray *ray, double t, u
   const quoin_scene *scene = work->scene;
   const qn_leaf *leaf = &scene->leaves[part];
   const qn_half *half = &scene->halves[index];
-  *out = (quoin_hit){.found = 1, .leaving = leaving, .part = part, .role = half->role, .t = t};
+  out->found = 1, out->leaving = leaving, out->part = part, out->role = half->role, out->t = t;
+  out->uv[0] = out->uv[1] = 0;
   double y[3];
   for (int i = 0; i < 3; i++) {
     out->point[i] = ray->o[i] + out->t * ray->d[i];
@@ -81,6 +82,42 @@ int qn_is_ray(const quoin_ray *ray) {
   return all == 0 && any > 0 && ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL;
 }
 
+/* What is there, where something is. */
+static quoin_status describe_seen(quoin_work *work, const quoin_ray *ray, const qn_seen *seen, quoin_hit *hit) {
+  const quoin_scene *scene = work->scene;
+  if (seen->surface == QUOIN_NO_SURFACE) {
+    *hit = (quoin_hit){.part = QUOIN_NO_PART};
+    return QUOIN_OK;
+  }
+  const qn_leaf *leaf = &scene->leaves[seen->leaf];
+  uint32_t half = leaf->half0;
+  while (half + 1 < leaf->half0 + leaf->halves && scene->halves[half].surface != seen->surface) {
+    half++;
+  }
+  return describe(work, ray, seen->t, seen->leaf, half, seen->leaving, hit);
+}
+
+/* One ray alone: of the packet only what the body for one reads is filled in. */
+static quoin_status see_alone(quoin_work *work, const quoin_ray *ray, unsigned want, qn_seen *seen) {
+  qn_packet p;
+  qn_seen lanes[QN_LANES];
+  uint64_t met;
+  for (int k = 0; k < 3; k++) {
+    p.o[k][0] = ray->o[k], p.d[k][0] = ray->d[k];
+  }
+  p.from[0] = ray->from, p.to[0] = ray->to;
+  p.on[0] = QUOIN_NO_SURFACE;
+  p.live = 1, p.few = QN_ONE_LANE;
+  p.new_origins = p.new_directions = 1, p.kept_ranges = 0, p.tile = QN_TILE_NONE, p.any = 0;
+  quoin_status status = qn_look_packet(work, &p, want, lanes, &met);
+  if (met) {
+    *seen = lanes[0];
+  } else {
+    *seen = (qn_seen){.surface = QUOIN_NO_SURFACE};
+  }
+  return status;
+}
+
 /* Rays go through packets, a run of QN_LANES at a time; a hit on a surface that one part alone has needs no more than its
    parameter and surface. */
 quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out) {
@@ -95,19 +132,9 @@ quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t
         return QUOIN_E_ARGUMENT;
       }
     }
-    quoin_status status = qn_look(work, count, rays + at, NULL, QN_LOOK_T, seen);
+    quoin_status status = count == 1 ? see_alone(work, &rays[at], QN_LOOK_T, seen) : qn_look(work, count, rays + at, NULL, QN_LOOK_T, seen);
     for (size_t i = 0; status == QUOIN_OK && i < count; i++) {
-      quoin_hit *hit = &out[at + i];
-      *hit = (quoin_hit){.part = QUOIN_NO_PART};
-      if (seen[i].surface == QUOIN_NO_SURFACE) {
-        continue;
-      }
-      const qn_leaf *leaf = &scene->leaves[seen[i].leaf];
-      uint32_t half = leaf->half0;
-      while (half + 1 < leaf->half0 + leaf->halves && scene->halves[half].surface != seen[i].surface) {
-        half++;
-      }
-      status = describe(work, &rays[at + i], seen[i].t, seen[i].leaf, half, seen[i].leaving, hit);
+      status = describe_seen(work, &rays[at + i], &seen[i], &out[at + i]);
     }
     if (status != QUOIN_OK) {
       return status;
@@ -135,7 +162,14 @@ static quoin_status are_rays(const quoin_scene *scene, const quoin_work *work, s
 
 quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out) {
   quoin_status status = are_rays(scene, work, n, rays, out);
-  return status == QUOIN_OK ? qn_look_spots(work, n, rays, want & QUOIN_WANT_T ? QN_LOOK_T : 0, out) : status;
+  const unsigned look = want & QUOIN_WANT_T ? QN_LOOK_T : 0;
+  if (status != QUOIN_OK || n != 1) {
+    return status == QUOIN_OK ? qn_look_spots(work, n, rays, look, out) : status;
+  }
+  qn_seen seen;
+  status = see_alone(work, rays, look, &seen);
+  *out = seen.surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen.t, seen.surface, seen.leaving};
+  return status;
 }
 
 enum { RUN = 4096 }; /* rays between two questions whether to stop */
