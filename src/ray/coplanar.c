@@ -304,7 +304,8 @@ static size_t last_change(qn_scratch *s, state *st, const qn_event *group, size_
     if (!germs) {
       qn_scratch_fail(s, QUOIN_E_MEMORY);
     } else if (w.n == 0) {
-      (void)weave_in_cell(&w, NULL);
+      const int8_t none[1] = {0};
+      (void)weave_in_cell(&w, none);
       listed = 1;
     } else {
       listed = qn_cells_list(&s->ctx, w.n, germs, weave_in_cell, &w);

@@ -348,7 +348,7 @@ def goals(results):
             sizes = [r for r in grown if family(r['scene']) == f and r['path'] == p]
             if len(sizes) > 1:
                 least, largest = min(drawn(r['scene']) for r in sizes), max(drawn(r['scene']) for r in sizes)
-                most('%s, `%s`: growth of a ray\'s cost from %d to %d leaves, times the logarithm\'s' % (f, p, least, largest), over_logarithm(sizes), 1)
+                most('%s, `%s`: growth of the cost from %d to %d leaves, times the logarithm\'s' % (f, p, least, largest), over_logarithm(sizes), 1)
     build = [r for r in read(results, 'build') if r['scene'] == 'spheres-1000000' and r['build_threads'] != '1']
     if build:
         goal('1,000,000 spheres: compiled, times a second', 1 / number(build[0]['compile_s']), 1)
