@@ -332,6 +332,36 @@ static void long_rays(void **state) {
   assert_int_equal(failures, 0);
 }
 
+/* Ends at one place of a leaf that is met and of one that is taken away, in either order of the file: which is named. */
+static void flush_names(void **state) {
+  (void)state;
+  static const char text[] = "rotate([0,0,30]) intersection() { difference() { translate([0,-9,-9]) cube([5,18,18]); translate([2,-9,-9]) cube([9,18,18]);\n"
+                             "translate([-3,-9,-9]) cube([4,18,18]); } translate([-1,-8,-8]) cube([3,16,16]); translate([1,-8,-8]) cube([7,16,16]); }\n";
+  ask a;
+  ask_open(&a, text);
+  assert_int_equal(a.scene->program.gate_count, 1);
+  quoin_ray rays[QN_LANES];
+  size_t stretches = 0;
+  for (int i = 0; i < QN_LANES; i++) {
+    rays[i] = (quoin_ray){{-5, 0.011 * i - 3, 0.3}, {0.9, 0.5 + 0.0001 * i, 0.001}, 0, HUGE_VAL};
+    weave_ray(&a, &rays[i], &want[i]);
+    stretches += want[i].count;
+  }
+  assert_int_equal(stretches, QN_LANES);
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    asked q = {text, isas[k], 0, 0, rays, want, 0};
+    assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+    assert_true(__builtin_popcountll(work->sheaf->spans.merged) >= (int)(work->sheaf->packet.few ? 8 : 60));
+    quoin_work_free(work);
+  }
+  ask_close(&a);
+  assert_int_equal(failures, 0);
+}
+
 /* A program so deep that it is walked along paths: 60 levels that add and take away in turn, many of them flush. */
 static void deep_program(void **state) {
   (void)state;
@@ -438,6 +468,6 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_isas();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
