@@ -10,7 +10,6 @@
 #include "query/look.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { RUN = QN_ACROSS_MOST, FEWEST = 2 * QN_FEW };
 /* How many times as wide as things are apart (work->apart) a packet may be: as rays of one direction or of several come; sorted; and from where on starts are moved. Measured on the scenes of tools/bench. */
@@ -126,7 +125,7 @@ static quoin_status answer(asked *a, size_t n) {
         move_starts(a);
       }
       status = run(a, at, NULL, count);
-    } else if (a->seen.one_way && (a->rest_count == 0 || memcmp(a->rays[a->rest[0]].d, a->rays[at].d, sizeof a->rays[at].d) == 0)) {
+    } else if (a->seen.one_way && (a->rest_count == 0 || qn_same_way(&a->rays[a->rest[0]], &a->rays[at]))) {
       for (unsigned i = 0; i < count; i++) {
         a->rest[a->rest_count++] = (uint16_t)(at + i);
       }

@@ -168,7 +168,10 @@ quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_
   }
   qn_seen seen;
   status = see_alone(work, rays, look, &seen);
-  *out = seen.surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen.t, seen.surface, seen.leaving};
+  *out = (quoin_spot){seen.t, seen.surface, seen.leaving};
+  if (seen.surface == QUOIN_NO_SURFACE) {
+    *out = (quoin_spot){.surface = QUOIN_NO_SURFACE};
+  }
   return status;
 }
 

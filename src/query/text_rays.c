@@ -158,7 +158,7 @@ static int want_sorting(const quoin_scene *scene, size_t n, const quoin_ray *ray
     return 0;
   }
   for (size_t i = 1; i < n; i++) {
-    if (memcmp(rays[i].d, rays[0].d, sizeof rays[i].d) != 0) {
+    if (!qn_same_way(&rays[i], &rays[0])) {
       return 0;
     }
   }
