@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """usage: prove.py BOUNDS_H DOC SCRIPT.g ...: proves each script with the constants of bounds.h, and that it fails with the smaller ones it names.
 With DOC (docs/bounds.md): every constant of bounds.h has a row in its table "How each is proven". See README.md here."""
+import concurrent.futures
 import re
 import subprocess
 import sys
@@ -43,7 +44,7 @@ def proven(script, look_up, name=None, factor=1.0):
 def proven_one(script, look_up, name, factor):
     text = re.sub(r"@(QN_[A-Z0-9_]+(?:\([0-9,]+\))?)@", lambda m: (look_up(m.group(1)) * (factor if m.group(1) == name else 1)).hex(), script)
     try:
-        done = subprocess.run(["gappa", "-Eprecision=256"], input=text, capture_output=True, text=True, timeout=100 if name is None else 10, check=False)
+        done = subprocess.run(["gappa", "-Eprecision=256"], input=text, capture_output=True, text=True, timeout=100 if name is None else 4, check=False)
     except subprocess.TimeoutExpired:
         return False, "gappa found no proof in time"
     said = done.stdout + done.stderr
@@ -64,16 +65,20 @@ def main():
     for name in sorted(rows - names):
         print(f"docs/bounds.md speaks of {name}, which bounds.h does not define")
         wrong += 1
-    for path in sys.argv[3:]:
-        with open(path, encoding="utf-8") as f:
-            script = f.read()
-        ok, said = proven(script, look_up)
-        print(f"{path}: {'proven' if ok else 'NOT PROVEN'}")
-        if not ok:
-            print(said)
-        wrong += not ok
-        for name, factor in re.findall(r"^# tight: (\S+) ([0-9.]+)$", script, flags=re.M):
-            ok, _ = proven(script, look_up, name, float(factor))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        jobs = []
+        for path in sys.argv[3:]:
+            with open(path, encoding="utf-8") as f:
+                script = f.read()
+            jobs.append((path, None, None, pool.submit(proven, script, look_up)))
+            for name, factor in re.findall(r"^# tight: (\S+) ([0-9.]+)$", script, flags=re.M):
+                jobs.append((path, name, factor, pool.submit(proven, script, look_up, name, float(factor))))
+    for path, name, factor, job in jobs:
+        ok, said = job.result()
+        if name is None:
+            print(f"{path}: {'proven' if ok else 'NOT PROVEN'}" + ("" if ok else "\n" + said))
+            wrong += not ok
+        else:
             print(f"  with {factor} {name}: {'PROVEN TOO, so it is not tight' if ok else 'fails, as it should'}")
             wrong += ok
     return 1 if wrong else 0
