@@ -214,6 +214,11 @@ int main(int argc, char **argv) {
     one_model(seeds.next(), o, t);
     if (t.wrong >= 10) break;
   }
+  for (auto &e : t.census.ends)
+    if (e.second.most > 1 || e.second.misread) {
+      fprintf(stderr, "WRONG text of parameters, %s: up to %.4f units of the last place off, %llu read back as other doubles\n", e.first.c_str(), e.second.most, e.second.misread);
+      t.wrong++;
+    }
   double all = now() - begin;
   printf("rays seed=%llu seconds=%.1f models=%llu leaves=%llu rays=%llu quick=%llu exact=%llu unjudged=%llu ends=%llu points=%llu refused=%llu wrong=%llu", (unsigned long long)o.seed, all,
          t.models, t.leaves, t.rays, t.quick, t.exact, t.unjudged, t.ends, t.points, t.refused, t.wrong);
