@@ -84,6 +84,7 @@ static int weave_in_cell(void *user, const int8_t *signs) {
     const qn_event *e = &w->events[i];
     int holds = 1;
     for (size_t k = w->first[i]; k < w->first[i + 1] && holds; k++) {
+      /* cppcheck-suppress nullPointer ; there are signs for the surfaces that literals name */
       holds = w->literals[k].side * signs[w->literals[k].surface] < 0;
     }
     if (holds) {

@@ -29,7 +29,9 @@ void QN_OF_ISA(qn_spots)(const qn_packet_hits *hits, uint64_t met, const double 
         word = vbitor(word, vpick(vand(m, vmask(left)), leaving, zero));
       }
     }
+    /* cppcheck-suppress duplicateValueTernary ; for two lanes both are 1 */
     double *to[QN_W > 2 ? QN_W / 2 : 1];
+    /* cppcheck-suppress duplicateValueTernary ; as above */
     for (unsigned k = 0; k < (QN_W > 2 ? QN_W / 2 : 1); k++) {
       unsigned lane = at + 2 * k;
       to[k] = (double *)(void *)(out + qn_lane_row(lane) * stride + qn_lane_column(lane));

@@ -73,7 +73,7 @@ static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apa
     if (near >> i & 1) {
       uint64_t a, b;
       memcpy(&a, &x[i], 8), memcpy(&b, &y[i], 8);
-      const uint64_t who = (a | b) & QN_STARTS_ON ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
+      const uint64_t who = ((a | b) & QN_STARTS_ON) != 0 ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
       int nobody = (a & QN_NOBODY) == QN_NOBODY; /* both ends of the range, or no end at all */
       if ((a & who) == (b & who) && !(nobody && gap[i] != 0)) {
         *equal |= 1u << i;

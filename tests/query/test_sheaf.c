@@ -273,10 +273,12 @@ static void random_models(void **state) {
       one_bundle(&own, &a, text, model, roll(&d, BUNDLES), &f);
     }
     for (int k = 0; k < 3; k++) {
-      some_decimals(&d, &a, text, model, roll(&d, BUNDLES), &f);
+      dice own = dice_of(d.state, (size_t)k);
+      some_decimals(&own, &a, text, model, roll(&d, BUNDLES), &f);
     }
     for (int k = 0; k < 8; k++) {
-      one_grid(&d, &a, text, model, roll(&d, BUNDLES), &f);
+      dice own = dice_of(d.state, (size_t)k);
+      one_grid(&own, &a, text, model, roll(&d, BUNDLES), &f);
     }
     ask_close(&a);
   }
