@@ -45,13 +45,13 @@ typedef struct walk {
   _Alignas(64) double tolerance[QN_LANES_NOW]; /* the sum of any two errors of this lane so far */
 } walk;
 
-/* A float at most, or at least, v: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
+/* A float at most, or at least, v, which is a number: rounding moves by under 2^-24 of it, or by under the smallest normal float. */
 QN_INLINE float down(double v) {
-  float f = (float)v;
+  float f = v < FLT_MAX ? (float)v : FLT_MAX; /* infinity less infinity were nothing */
   return f - (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
 }
 QN_INLINE float up(double v) {
-  float f = (float)v;
+  float f = v > -FLT_MAX ? (float)v : -FLT_MAX;
   return f + (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
 }
 

@@ -685,6 +685,17 @@ static void planes(void **state) {
   assert_true(c.hits > 5000 && c.misses > 5000 && c.unsure > 500);
 }
 
+static void floats_outward(void **state) {
+  (void)state;
+  static const double hard[] = {0, 0x1p-1074, 0x1p-160, 0x1p-149, 0x1.8p-150, 0x1p-126, 1, 1 + 0x1p-25, 0x1.ffffffp127, 0x1.fffffefp127, 0x1p128, 1e39, 0x1p500, DBL_MAX, INFINITY};
+  for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
+    for (int sign = -1; sign <= 1; sign += 2) {
+      double v = sign * hard[i];
+      assert_true((double)down(v) <= v && (double)up(v) >= v); /* not where one is a NaN */
+    }
+  }
+}
+
 int main(void) {
 #ifdef QN_ISA_AVX2
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
@@ -692,6 +703,7 @@ int main(void) {
   }
 #endif
   start_exact();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(spheres), cmocka_unit_test(boxes), cmocka_unit_test(planes), cmocka_unit_test(bodies_and_caps)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(spheres), cmocka_unit_test(boxes), cmocka_unit_test(planes), cmocka_unit_test(bodies_and_caps),
+                                     cmocka_unit_test(floats_outward)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
