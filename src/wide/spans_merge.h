@@ -57,6 +57,11 @@ static QN_NOINLINE vm one_place(merging *m, vm near, vd px, vd py, vm *sooner) {
   return vmask(bits & same);
 }
 
+/* Whether x and y cannot be told apart, or else which comes first: by one difference, so that of two places exactly one of the three holds. x + tolerance, rounded, is no smaller than some
+   y whose difference from x is above the tolerance. */
+QN_INLINE vm within(const merging *m, vd x, vd y) { return vandnot(vmask(QN_ALL_BITS), vlt(m->tolerance, vabs(vsub(x, y)))); }
+QN_INLINE vm clearly_before(const merging *m, vd x, vd y) { return vlt(m->tolerance, vsub(y, x)); }
+
 /* --- what is found --------------------------------------------------------------------------------------------------- */
 
 /* A lane's stretch that reaches over the range's ends, or may. */
@@ -98,7 +103,7 @@ QN_INLINE void add_stretch(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
   qn_packet_spans *out = m->out;
   const vd reach = vset(m->w->f.reach < QN_FAR ? m->w->f.reach : QN_FAR * 0.5);
   unsigned bits = vbits(which);
-  vm whole = vand(vand(vlt(vadd(vload(p->from + o), m->tolerance), a), vlt(b, vsub(vload(p->to + o), m->tolerance))),
+  vm whole = vand(vand(clearly_before(m, vload(p->from + o), a), clearly_before(m, b, vload(p->to + o))),
                   vand(vle(vabs(a), reach), vle(vabs(b), reach)));
   unsigned clear = bits & vbits(whole);
   _Alignas(64) double ta[QN_W], tb[QN_W], na[QN_W], nb[QN_W];
@@ -120,8 +125,6 @@ QN_INLINE void add_stretch(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
 
 /* --- runs taken away from a meet --------------------------------------------------------------------------------------- */
 
-QN_INLINE vm within(const merging *m, vd x, vd y) { return vandnot(vmask(QN_ALL_BITS), vlt(m->tolerance, vabs(vsub(x, y)))); }
-
 /* Where a run begins or ends within the tolerance of the meet: what is to be made of it. Returns the lanes in which there is more to do with the run. */
 static QN_NOINLINE vm flush(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
   vm sooner, same = one_place(m, vand(which, within(m, b, m->at)), m->p_at, pb, &sooner); /* the solid begins where the run ends: the last leaf makes it */
@@ -136,11 +139,11 @@ static QN_NOINLINE vm flush(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
 
 QN_INLINE void take_away(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
   which = vand(which, m->inside);
-  which = vandnot(which, vor(vlt(vadd(b, m->tolerance), m->at), vlt(vadd(m->to, m->tolerance), a))); /* elsewhere */
+  which = vandnot(which, vor(clearly_before(m, b, m->at), clearly_before(m, m->to, a))); /* elsewhere */
   if (QN_UNLIKELY(vbits(vand(which, vor(within(m, b, m->at), vor(within(m, a, m->to), within(m, a, m->at))))))) {
     which = flush(m, which, a, pa, b, pb);
   }
-  vm gap = vand(which, vlt(vadd(m->at, m->tolerance), a));
+  vm gap = vand(which, clearly_before(m, m->at, a));
   if (vbits(gap)) {
     add_stretch(m, gap, m->at, m->p_at, a, pa);
   }
@@ -149,7 +152,7 @@ QN_INLINE void take_away(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
 
 /* What is left of the meet after the last run. */
 static void last_of_meet(merging *m) {
-  vm sooner, some = vand(m->inside, vlt(vadd(m->at, m->tolerance), m->to)), near = vand(m->inside, within(m, m->at, m->to));
+  vm sooner, some = vand(m->inside, clearly_before(m, m->at, m->to)), near = vand(m->inside, within(m, m->at, m->to));
   if (vbits(near)) {
     one_place(m, near, m->p_at, m->p_to, &sooner);
   }
@@ -184,7 +187,7 @@ static void meet_of(merging *m, const qn_span_slot *slot, uint32_t slots, uint32
   if (QN_UNLIKELY(vbits(near))) {
     one_place(m, near, m->p_at, m->p_to, &unused);
   }
-  m->inside = vand(m->inside, vlt(vadd(m->at, m->tolerance), m->to));
+  m->inside = vand(m->inside, clearly_before(m, m->at, m->to));
 }
 
 /* --- runs -------------------------------------------------------------------------------------------------------------- */
@@ -217,7 +220,7 @@ static size_t sort_slots(const merging *m, const qn_span_slot *slot, uint32_t sl
     }
     const double *v = m->ends + (size_t)k * SLOT_DOUBLES;
     vd a = vload(v), b = vload(v + QN_W);
-    vm hit = vandnot(vmask(slot[k].hit), vand(vlt(vadd(wide_a, m->tolerance), a), vlt(vadd(b, m->tolerance), wide_b)));
+    vm hit = vandnot(vmask(slot[k].hit), vand(clearly_before(m, wide_a, a), clearly_before(m, b, wide_b)));
     if (!vbits(hit)) {
       continue;
     }
@@ -262,8 +265,8 @@ QN_INLINE void sweep(merging *m, const sorted *s, size_t n) {
   run r = {.a = infinite, .b = vset(-INFINITY), .from = vset(0), .to = vset(0), .open = vmask(0)};
   for (size_t k = 0; k < n; k++) {
     vd a = vload(s->a + k * QN_W), slot = vload(s->slot + k * QN_W), b = slot_doubles(m, slot, QN_W);
-    vm live = vlt(a, infinite), fresh = vand(live, vlt(vadd(r.b, m->tolerance), a)), joined = vandnot(live, fresh);
-    vm longer = vand(joined, vlt(vadd(r.b, m->tolerance), b));
+    vm live = vlt(a, infinite), fresh = vand(live, clearly_before(m, r.b, a)), joined = vandnot(live, fresh);
+    vm longer = vand(joined, clearly_before(m, r.b, b));
     vm near = vand(joined, vor(within(m, a, r.b), vor(within(m, a, r.a), within(m, b, r.b))));
     if (QN_UNLIKELY(vbits(near))) {
       settle_run(m, &r, joined, a, b, slot);

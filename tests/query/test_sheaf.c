@@ -364,6 +364,32 @@ static void flush_names(void **state) {
   assert_int_equal(failures, 0);
 }
 
+/* A stretch longer than the tolerance by so little that its beginning and the tolerance, added, round to its end. Two places are told apart by one difference. */
+static void barely_longer(void **state) {
+  (void)state;
+  static const char text[] = "translate([-3,0,5]) difference() {\n"
+                             "cube([5.0000000037252902984619140625,1.0000000037252902984619140625,2.0000000037252902984619140625],center=true);\ncube([1,1,1]);\n}\n";
+  ask a;
+  ask_open(&a, text);
+  quoin_ray rays[3];
+  for (int i = 0; i < 3; i++) {
+    rays[i] = (quoin_ray){{8186.4999999981374, -6144.5000000018626, 4100}, {-0.99999999999999933, 0.75000000000000488, -0.5}, -HUGE_VAL, HUGE_VAL};
+    weave_ray(&a, &rays[i], &want[i]);
+    assert_int_equal(want[i].count, 1);
+  }
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work;
+    setenv("QUOIN_ISA", isas[k], 1);
+    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    asked q = {text, isas[k], 0, 0, rays, want, 0};
+    assert_int_equal(quoin_ray_intervals_many(a.scene, work, 3, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+    quoin_work_free(work);
+  }
+  ask_close(&a);
+  assert_int_equal(failures, 0);
+}
+
 /* A program so deep that it is walked along paths: 60 levels that add and take away in turn, many of them flush. */
 static void deep_program(void **state) {
   (void)state;
@@ -470,6 +496,7 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_isas();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names), cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names),
+                                     cmocka_unit_test(barely_longer), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
