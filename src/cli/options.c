@@ -252,6 +252,7 @@ static int use(state *s, const cli_option *o, const char *value) {
     }
     value = s->argv[s->at++];
   }
+  value = value ? value : ""; /* of an option without one */
   int wrong = o->id < CLI_OWN ? take_common(s->common, o->id, value) : s->take(s->user, o->id, value);
   return wrong ? cli_try_help(s->command) : -1;
 }

@@ -57,7 +57,7 @@ static void list(printer *p, const qn_num *n, size_t count) {
   say(p, "[");
   for (size_t i = 0; i < count; i++) {
     say(p, i ? ", " : "");
-    number(p, n[i]);
+    number(p, n[i]); /* NOLINT(clang-analyzer-core.NullDereference): null only for kinds without numbers, which list none */
   }
   say(p, "]");
 }
@@ -285,7 +285,7 @@ static void head(printer *p, const qn_node *d) {
     say(p, ")");
     break;
   case QN_NODE_ROTATE_AXIS:
-    named_number(p, "rotate(a = ", a[0]);
+    named_number(p, "rotate(a = ", a[0]); /* NOLINT(clang-analyzer-core.NullDereference): this kind has four numbers */
     say(p, ", v = ");
     list(p, a + 1, 3);
     say(p, ")");

@@ -13,6 +13,8 @@
 #include "wide/lasts.h"
 #include "wide/term.h"
 
+/* NOLINTBEGIN(misc-no-recursion): as deep as lists stand within lists, at most QN_NORMAL_DEPTH */
+
 static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best);
 static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask);
 
@@ -33,7 +35,7 @@ static uint64_t term_seek(walk *w, const qn_nterm *t, lanes *at, const lanes *li
       mask &= found & ~w->unsure;
       for (uint64_t m = mask; m; m &= m - 1) {
         unsigned k = qn_trailing_zeros(m);
-        if (memcmp(&next.t[k], &was.t[k], 8)) {
+        if (next.t[k] < was.t[k] || next.t[k] > was.t[k]) {
           again |= (uint64_t)1 << k;
         }
         at->t[k] = next.t[k], at->p[k] = next.p[k];
@@ -458,6 +460,8 @@ static uint64_t union_leave(walk *w, uint32_t u, lanes *at, uint64_t mask) {
   return moved & ~w->unsure;
 }
 
+/* NOLINTEND(misc-no-recursion) */
+
 /* The lanes that are outside the scene's set somewhere in their range. */
 static uint64_t any_outside(walk *w, const lanes *start, uint64_t mask) {
   const qn_packet *p = w->f.p;
@@ -565,7 +569,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   hits->found = found & packet->live & ~w.unsure;
   hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
   hits->far_end &= hits->found;
-  enum { RUN = QN_LANES_NOW < 8 ? QN_LANES_NOW : 8 };
+  enum { RUN = QN_LANES_NOW < 8 ? QN_LANES_NOW : 8 }; /* NOLINT(bugprone-branch-clone): where there are eight lanes both are 8 */
   for (int j = 0; j < QN_LANES_NOW; j += RUN) {
     uint64_t any = 0, payload[RUN];
     memcpy(payload, best.p + j, sizeof payload);

@@ -317,8 +317,11 @@ static size_t ask_cells(walk *w, questions *q, const uint32_t *cell, size_t top,
 /* Whether all questions are about one union that has cells and no terms beside them. */
 static int one_with_cells(const walk *w, const questions *q) {
   const qn_cells *cells = w->room->cells;
+  if (!cells || q->n == 0) {
+    return 0;
+  }
   const qn_union *u = &w->scene->normal.unions[q->un[0]];
-  if (!cells || q->n == 0 || u->wide || u->terms <= FEW || cells->grid[q->un[0]] == QN_NO_GRID) {
+  if (u->wide || u->terms <= FEW || cells->grid[q->un[0]] == QN_NO_GRID) {
     return 0;
   }
   uint32_t other = 0;

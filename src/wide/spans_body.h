@@ -7,6 +7,7 @@
 
 #include "wide/spans_merge.h"
 
+/* NOLINTNEXTLINE(misc-redundant-expression): they are equal today; that is what is asserted */
 _Static_assert(QN_SPAN_LARGER == QN_LARGER_ROOT && QN_SPAN_LEAF == QN_LEAF_BITS, "packet.h tells what payloads are");
 
 QN_INLINE void leaf_spans_of(walk *w, qn_piece_kind kind, const qn_piece_head *head, uint64_t mask, qn_packet_spans *out) {
