@@ -323,12 +323,14 @@ def text_part(b):
 
 GROWTH = {
     'spheres': [10, 100, 1000, 10000, 100000, 1000000],
+    'dense': [10, 100, 1000, 10000, 100000, 1000000],
     'plate': [10, 100, 1000, 10000, 100000],
     'tree': [10, 100, 1000, 10000, 100000, 1000000],
     'menger': [1, 2, 3, 4, 5],
 }
-GROWTH_QUICK = {'spheres': [10, 1000, 10000], 'plate': [10, 1000, 10000], 'tree': [10, 1000, 10000], 'menger': [1, 3, 4]}
+GROWTH_QUICK = {'spheres': [10, 1000, 10000], 'dense': [10, 1000], 'plate': [10, 1000, 10000], 'tree': [10, 1000, 10000], 'menger': [1, 3, 4]}
 GROWTH_PATHS = ['single', 'grid', 'grid-intervals', 'random', 'points']
+GROWTH_NEAR = ['single', 'grid'] # by the near camera
 THREAD_SCENES = ['plate1000', 'spheres10k', 'tree1024']
 
 
@@ -343,9 +345,12 @@ def growth_part(b):
             base = b.scene(name)
             b.say('growth ' + name)
             for threads in [1] if quick else [1, 0]: # of the compilation
-                found = b.scene_rows([b.program('bench_scenes'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1 if quick else 3, '--seconds',
-                                      0.05 if quick else 0.2, '--size', 512, '--oracle', 20, '--judge', int(threads == 1), '--build-threads', threads, '--paths',
-                                      ','.join(GROWTH_PATHS if threads else ['grid'])])
+                measured = lambda camera, paths: b.scene_rows([b.program('bench_scenes'), base + '.csg', base + camera, '--name', name, '--rounds', 1 if quick else 3,
+                                                               '--seconds', 0.05 if quick else 0.2, '--size', 512, '--oracle', 20, '--judge', int(threads == 1),
+                                                               '--build-threads', threads, '--paths', ','.join(paths)])
+                found = measured('.camera', GROWTH_PATHS if threads else ['grid'])
+                if threads:
+                    found += [dict(r, path=r['path'] + '-near') for r in measured('.near', GROWTH_NEAR)]
                 met = b.scene_rows([b.program('bench_exact'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', 0.001, '--oracle', 0, '--judge', 0,
                                     '--build-threads', 0, '--paths', 'grid'], EXACT_FIELDS) if threads and b.program('bench_exact') else []
                 for r in found if threads else []:

@@ -2,9 +2,10 @@
 """Writes the scenes of the benchmarks.
 usage: scenes.py --list | scenes.py DIR NAME...
 
-Each scene becomes four files in DIR:
+Each scene becomes these files in DIR:
   NAME.csg      the model in quoin's language
   NAME.camera   one line: ortho o(3) u(3) v(3) d(3) W H; ray (i, j) of a W x H grid starts at o + (i+.5)/W u + (j+.5)/H v
+  NAME.near     of a growth family: the same from so near that leaves keep their size in the picture
   NAME.flat     the same solid for programs that share no code with quoin's reader: a line for each leaf,
                   S centre r | B min size | C base axis h r     (numbers are the decimals of NAME.csg)
                 then one line "T" and the tree in prefix order: a leaf's number, or u N or d N with N children after it
@@ -12,7 +13,7 @@ Each scene becomes four files in DIR:
 
 Names: the peer scenes (sphere1, plate1000, spheres10k, spheres1M, tree1024, tree1024fat, menger4, parts2000, plate100k, tree65k), `coplanar`
 (a lattice of touching and flush boxes and cylinders), `part50` and `part50flush` (a part as people draw them) and the growth families
-spheres-N, plate-N, tree-N (N leaves) and menger-L (level L). Everything is drawn from splitmix64 with a fixed seed."""
+spheres-N, dense-N, plate-N, tree-N (N leaves) and menger-L (level L). Everything is drawn from splitmix64 with a fixed seed."""
 import math
 import os
 import sys
@@ -245,6 +246,9 @@ def growth(name):
     small = (10000 / n)**(1 / 3)
     if family == 'spheres':
         return union_of_spheres(n, 20250001, lambda g: small * g.f(.3, 1), lo=-small, hi=100 + small)
+    if family == 'dense': # a ray gets as deep, in leaves, into a million as into a thousand
+        wide = 100 / n**(1 / 3)
+        return union_of_spheres(n, 20250003, lambda g: wide * g.f(.3, 1), lo=0, hi=100)
     if family == 'tree':
         return tree(n, 20250002, (1024 / n)**(1 / 3))
     if family == 'plate':
@@ -253,6 +257,18 @@ def growth(name):
         pitch = 400 / nx
         return plate(nx, ny, [400, pitch * ny, pitch], .3 * pitch, .1 * pitch, pitch)
     raise KeyError(name)
+
+
+# How large a growth family's leaves are beside the whole scene, of n leaves (menger: level n), but for a factor.
+LEAF = {'spheres': lambda n: n**(-1 / 3), 'dense': lambda n: n**(-1 / 3), 'plate': lambda n: n**-.5, 'tree': lambda n: n**(-1 / 3), 'menger': lambda n: 3.0**(9 - n)}
+
+
+def near(name, camera):
+    """The camera so near to the middle that leaves are as large in its picture as those of ten leaves (menger: of level 1) in the whole."""
+    family, n = name.split('-')
+    f = LEAF[family](int(n)) / LEAF[family](1 if family == 'menger' else 10)
+    o, u, v, d, size = camera
+    return [o[k] + (u[k] + v[k]) * (1 - f) / 2 for k in range(3)], [f * x for x in u], [f * x for x in v], d, size
 
 
 def make(name):
@@ -322,9 +338,12 @@ def write(directory, name):
     base = os.path.join(directory, name)
     with open(base + '.csg', 'w') as f:
         write_tree(f, s.tree, lambda i: csg_leaf(s.leaves[i]), {'u': 'union', 'd': 'difference', 'merge': False}, '() {')
-    with open(base + '.camera', 'w') as f:
-        o, u, v, d, size = s.camera
-        f.write('ortho %s %d %d\n' % (' '.join(map(num, [*o, *u, *v, *d])), size, size))
+    cameras = {'camera': s.camera}
+    if name.split('-')[0] in LEAF:
+        cameras['near'] = near(name, s.camera)
+    for ending, (o, u, v, d, size) in cameras.items():
+        with open('%s.%s' % (base, ending), 'w') as f:
+            f.write('ortho %s %d %d\n' % (' '.join(map(num, [*o, *u, *v, *d])), size, size))
     if len(s.leaves) <= POV_LEAVES:
         with open(base + '.pov', 'w') as f:
             node = s.tree if isinstance(s.tree, tuple) else ('u', [s.tree, s.tree])
