@@ -586,7 +586,7 @@ quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, do
     return QUOIN_E_MEMORY;
   }
   s->found_count = count;
-  for (uint64_t m = *sure; m; m &= m - 1) {
+  for (uint64_t m = count ? *sure : 0; m; m &= m - 1) { /* with no stretch there may be no room for them */
     const unsigned lane = qn_trailing_zeros(m);
     qn_sheaf_write(work, lane, s->found + s->first[lane]);
   }
