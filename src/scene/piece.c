@@ -67,6 +67,59 @@ static int is_box(const quoin_scene *scene, const qn_leaf *l, qn_piece_box *box)
   return seen == 63;
 }
 
+static double length_of(const double row[4]) { return sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]); }
+
+/* Rows of a shadow may be of very different lengths (a slanted cylinder's: 2500 and 46), and wide code's bounds take all for as long as the longest. So rows are multiplied by powers of two, s and
+   l by their inverses, which is exact: all |s_i| lie in [1/2, 2) then. A row without a part in the form (along a cylinder) gets between a quarter and a half of the shortest other one's length: short, so that
+   the place nearest to the pivot is nearly the one nearest to the axis; not so short that a ray along it were QN_WIDE_SLOW. */
+static void even_rows(qn_piece_round *round) {
+  double row[3][4], s[3], l = round->l, shortest = INFINITY;
+  int fine = 1;
+  for (int i = 0; i < 3; i++) {
+    int e;
+    (void)frexp(fabs(round->s[i]), &e);
+    const int k = e >= 0 ? e / 2 : -((1 - e) / 2), plays = round->s[i] != 0;
+    for (int j = 0; j < 4; j++) {
+      row[i][j] = ldexp(round->row[i][j], plays ? k : 0);
+    }
+    s[i] = ldexp(round->s[i], plays ? -2 * k : 0);
+    l = ldexp(l, i == 2 && plays ? -k : 0);
+    shortest = plays ? fmin(shortest, length_of(row[i])) : shortest;
+  }
+  for (int i = 0; i < 3; i++) {
+    const double length = length_of(row[i]);
+    if (s[i] == 0 && (i != 2 || l == 0) && length > 0 && isfinite(shortest)) {
+      int e;
+      (void)frexp(0.5 * shortest / length, &e);
+      for (int j = 0; j < 4; j++) {
+        row[i][j] = ldexp(row[i][j], e - 1);
+      }
+    }
+    for (int j = 0; j < 4; j++) {
+      fine &= row[i][j] == 0 || (fabs(row[i][j]) <= QN_WIDE_LARGEST && fabs(row[i][j]) >= 1 / QN_WIDE_LARGEST);
+    }
+  }
+  fine &= l == 0 || (fabs(l) <= QN_WIDE_LARGEST && fabs(l) >= 1 / QN_WIDE_LARGEST);
+  if (fine) {
+    memcpy(round->row, row, sizeof row), memcpy(round->s, s, sizeof s);
+    round->l = l;
+  }
+}
+
+/* At least |X| anywhere in the leaf: by its box, and by the body, sum s_i X_i^2 <= -k, where that closes. */
+static double reach_of(const qn_leaf *leaf, const qn_piece_round *round) {
+  double idle = 0, plays = 0, least = INFINITY;
+  int closes = round->l == 0 && round->k < 0;
+  for (int i = 0; i < 3; i++) {
+    const double most = row_reach(leaf, round->row[i]);
+    *(round->s[i] == 0 ? &idle : &plays) += most * most;
+    closes &= round->s[i] >= 0;
+    least = round->s[i] > 0 ? fmin(least, round->s[i]) : least;
+  }
+  plays = closes ? fmin(plays, -round->k / least * QN_WIDE_SLACK) : plays;
+  return sqrt(idle + plays) * QN_WIDE_SLACK;
+}
+
 /* A quadric body and at most two caps that face apart. */
 static int is_round(const quoin_scene *scene, const qn_leaf *l, qn_piece_round *round) {
   if (l->halves < 1 || l->halves > 3) {
@@ -74,7 +127,6 @@ static int is_round(const quoin_scene *scene, const qn_leaf *l, qn_piece_round *
   }
   *round = (qn_piece_round){.head = {.kind = QN_PIECE_ROUND}, .surface = {UINT32_MAX, UINT32_MAX, UINT32_MAX}};
   memcpy(round->pivot, l->pivot, sizeof round->pivot);
-  double reach = 0;
   int caps = 0;
   for (uint32_t i = l->half0; i < l->half0 + l->halves; i++) {
     const qn_half *h = &scene->halves[i];
@@ -84,10 +136,8 @@ static int is_round(const quoin_scene *scene, const qn_leaf *l, qn_piece_round *
       memcpy(round->s, q->s, sizeof round->s);
       round->l = q->l, round->k = q->k;
       round->surface[0] = h->surface;
-      for (int r = 0; r < 3; r++) {
-        double most = row_reach(l, q->row[r]);
-        reach += most * most;
-      }
+      even_rows(round);
+      round->reach = reach_of(l, round);
     } else if (h->kind == QN_PLANE && caps < 2) {
       const qn_plane_shadow *p = &scene->planes[h->shadow];
       memcpy(round->cap[caps], p->n, sizeof p->n);
@@ -97,7 +147,6 @@ static int is_round(const quoin_scene *scene, const qn_leaf *l, qn_piece_round *
       return 0;
     }
   }
-  round->reach = sqrt(reach) * QN_WIDE_SLACK;
   return round->surface[0] != UINT32_MAX && isfinite(round->reach);
 }
 
