@@ -73,6 +73,20 @@ static quoin_status describe(quoin_work *work, const quoin_ray *ray, double t, u
   return QUOIN_OK;
 }
 
+/* The same for a sphere that is only shifted, from its piece alone, which the walk has just read: a leaf's own numbers, and where it is in the model, lie far
+   from one another in memory. */
+static void describe_ball(const quoin_ray *ray, double t, const qn_piece_sphere *ball, int leaving, quoin_hit *out) {
+  out->found = 1, out->leaving = leaving, out->part = ball->head.leaf, out->role = QUOIN_BODY, out->t = t;
+  double x[3];
+  for (int i = 0; i < 3; i++) {
+    out->point[i] = ray->o[i] + t * ray->d[i];
+    x[i] = ((ray->o[i] - ball->centre[i]) + t * ray->d[i]) - (double)ball->rest[i];
+    out->normal[i] = x[i];
+  }
+  unit(out->normal, ball->head.flags & QN_BALL_NEGATED ? -1 : 1);
+  qn_prims[QN_SPHERE].uv(NULL, 0, NULL, QUOIN_BODY, x, out->uv);
+}
+
 int qn_is_ray(const quoin_ray *ray) {
   double all = 0, any = 0;
   for (int i = 0; i < 3; i++) {
@@ -88,6 +102,14 @@ static quoin_status describe_seen(quoin_work *work, const quoin_ray *ray, const 
   if (seen->surface == QUOIN_NO_SURFACE) {
     *hit = (quoin_hit){.part = QUOIN_NO_PART};
     return QUOIN_OK;
+  }
+  const uint32_t line = scene->line_of ? scene->line_of[seen->leaf] : UINT32_MAX;
+  if (line != UINT32_MAX) {
+    const qn_piece_sphere *ball = (const qn_piece_sphere *)(const void *)((const char *)scene->lines + (size_t)line * 64);
+    if (ball->head.kind == QN_PIECE_SPHERE && ball->head.flags & QN_BALL_SHIFTED) {
+      describe_ball(ray, seen->t, ball, seen->leaving, hit);
+      return QUOIN_OK;
+    }
   }
   const qn_leaf *leaf = &scene->leaves[seen->leaf];
   uint32_t half = leaf->half0;

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { FEWEST_LOCALS = 64, MOST_LOCALS = 4096 }; /* powers of two; 750 kB at most */
+
 /* out = a after b. */
 static void after(const double a[12], const double b[12], double out[12]) {
   double m[12];
@@ -56,7 +58,7 @@ static int make(quoin_work *work, uint32_t leaf, qn_local *local) {
     }
   }
   qn_arena_release(&ctx->arena, mark);
-  *local = (qn_local){.leaf = QN_NO_LOCAL, .args = local->args, .arg_capacity = local->arg_capacity};
+  *local = (qn_local){.leaf = 0, .args = local->args, .arg_capacity = local->arg_capacity};
   local->singular = !invert(map, local->inverse);
   local->placed = (node->flags & QN_NODE_PLACED) != 0;
   size_t args = node->numbers - (local->placed ? 6u : 0u);
@@ -70,27 +72,29 @@ static int make(quoin_work *work, uint32_t leaf, qn_local *local) {
   for (size_t i = 0; i < local->arg_count; i++) {
     local->args[i] = qn_num_to_double(model->numbers[node->number0 + i]);
   }
-  local->leaf = leaf;
+  local->leaf = leaf + 1;
   return 1;
 }
 
 const qn_local *qn_query_local(quoin_work *work, uint32_t leaf) {
   if (!work->locals) {
-    work->locals = qn_alloc_zeroed(work->mem, QN_LOCALS * sizeof *work->locals);
+    size_t count = FEWEST_LOCALS;
+    while (count < work->scene->leaf_count && count < MOST_LOCALS) {
+      count *= 2;
+    }
+    work->locals = qn_alloc_zeroed(work->mem, count * sizeof *work->locals);
     if (!work->locals) {
       return NULL;
     }
-    for (int i = 0; i < QN_LOCALS; i++) {
-      work->locals[i].leaf = QN_NO_LOCAL;
-    }
+    work->local_count = count;
   }
-  qn_local *local = &work->locals[leaf % QN_LOCALS];
-  return local->leaf == leaf || make(work, leaf, local) ? local : NULL;
+  qn_local *local = &work->locals[leaf & (work->local_count - 1)];
+  return local->leaf == leaf + 1 || make(work, leaf, local) ? local : NULL;
 }
 
 void qn_query_locals_free(quoin_work *work) {
-  for (int i = 0; work->locals && i < QN_LOCALS; i++) {
+  for (size_t i = 0; i < work->local_count; i++) {
     qn_free(work->mem, work->locals[i].args, work->locals[i].arg_capacity * sizeof *work->locals[i].args);
   }
-  qn_free(work->mem, work->locals, QN_LOCALS * sizeof *work->locals);
+  qn_free(work->mem, work->locals, work->local_count * sizeof *work->locals);
 }

@@ -5,11 +5,10 @@
 #include "ray/around.h"
 #include "wide/points.h"
 
-enum { QN_LOCALS = 64 }; /* a power of two */
 
 /* A leaf's own coordinates, in doubles: local = inverse . (x, 1); its primitive's arguments (a polyhedron has thousands). */
 typedef struct qn_local {
-  uint32_t leaf;
+  uint32_t leaf; /* and one: 0 where none is held */
   int singular;
   double inverse[12];
   double placement[6];
@@ -17,7 +16,6 @@ typedef struct qn_local {
   size_t arg_count, arg_capacity;
   int placed;
 } qn_local;
-#define QN_NO_LOCAL UINT32_MAX
 
 typedef struct qn_sheaf qn_sheaf; /* sheaf.h */
 typedef struct qn_text_rays qn_text_rays; /* text_rays.c */
@@ -53,7 +51,7 @@ struct quoin_work {
   qn_sheaf *sheaf; /* of rays in packets; made when first needed */
   qn_text_rays *text_rays; /* a block of rays of decimals; made when first needed */
 
-  qn_local *locals; /* QN_LOCALS of them, by leaf modulo; made when first needed */
+  qn_local *locals; size_t local_count; /* by leaf modulo; made when first needed */
 };
 
 /* A point as a question takes it: doubles with weights, and the exact coordinates when needed.

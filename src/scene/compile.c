@@ -134,7 +134,7 @@ static quoin_status make(qn_building *b) {
   status = status == QUOIN_OK ? build_hierarchy(b) : status;
   status = status == QUOIN_OK ? qn_tell_progress(b->progress, 0.85) : status;
   status = status == QUOIN_OK ? qn_normal_build(&s->normal, s, b->mem, b->threads) : status;
-  status = status == QUOIN_OK ? qn_pieces_build(s, b->mem, b->kinds, b->threads) : status;
+  status = status == QUOIN_OK ? qn_pieces_build(s, b->model, b->mem, b->kinds, b->threads) : status;
   if (status == QUOIN_OK && (s->cells = qn_alloc(b->mem, sizeof *s->cells)) != NULL) {
     atomic_init(s->cells, NULL);
   }

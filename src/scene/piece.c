@@ -200,9 +200,9 @@ static size_t lines_of(qn_piece_kind kind) {
   return 1;
 }
 
-static void write_sphere(const qn_leaf *l, const qn_quadric_shadow *q, uint32_t leaf, uint32_t surface, void *line) {
+static void write_sphere(const qn_leaf *l, int placed, const qn_quadric_shadow *q, uint32_t leaf, uint32_t surface, void *line) {
   const double scale = q->row[0][0];
-  qn_piece_sphere s = {.head = {QN_PIECE_SPHERE, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .r2_rest = (float)-q->k_rest, .surface = surface};
+  qn_piece_sphere s = {.head = {QN_PIECE_SPHERE, 0, leaf}, .r2 = -q->k / (q->s[0] * scale * scale), .r2_rest = (float)-q->k_rest, .surface = surface};
   double off = 0, far = 0;
   int fine = s.r2 == -q->k && isfinite(q->k_rest) && (q->k_rest == 0 || fabs(q->k_rest) > QN_BALL_LEAST);
   memcpy(s.centre, l->pivot, sizeof s.centre);
@@ -213,19 +213,22 @@ static void write_sphere(const qn_leaf *l, const qn_quadric_shadow *q, uint32_t 
     fine = fine && (rest == 0 || size > QN_BALL_LEAST);
   }
   s.off = qn_round_up(off * QN_WIDE_SLACK);
+  if (isfinite(q->k_rest) && l->prim == QN_SPHERE && !placed) {
+    s.head.flags = (uint16_t)(QN_BALL_SHIFTED | (l->negated ? QN_BALL_NEGATED : 0));
+  }
   if (!fine || far > QN_BALL_FAR * sqrt(s.r2)) {
     s.r2_rest = INFINITY;
   }
   memcpy(line, &s, sizeof s);
 }
 
-static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind kind, void *line) {
+static void write_piece(const quoin_scene *scene, const quoin_model *model, uint32_t leaf, qn_piece_kind kind, void *line) {
   const qn_leaf *l = &scene->leaves[leaf];
   switch (kind) {
   case QN_PIECE_SPHERE: {
     const qn_half *h = &scene->halves[l->half0];
     const qn_quadric_shadow *q = &scene->quadrics[h->shadow];
-    write_sphere(l, q, leaf, h->surface, line);
+    write_sphere(l, (model->nodes[l->node].flags & QN_NODE_PLACED) != 0, q, leaf, h->surface, line);
     return;
   }
   case QN_PIECE_BOX: {
@@ -245,7 +248,7 @@ static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind k
     return;
   }
   case QN_PIECE_MEET: case QN_PIECE_HARD: {
-    qn_piece_meet meet = {.head = {kind, leaf}};
+    qn_piece_meet meet = {.head = {(uint16_t)kind, 0, leaf}};
     memcpy(line, &meet, sizeof meet);
     return;
   }
@@ -255,7 +258,7 @@ static void write_piece(const quoin_scene *scene, uint32_t leaf, qn_piece_kind k
 enum { STRETCH = 4096 }; /* leaves a thread takes at once */
 #define NOT_MET UINT32_MAX
 
-typedef struct filling { quoin_scene *scene; const uint8_t *kinds; } filling;
+typedef struct filling { quoin_scene *scene; const quoin_model *model; const uint8_t *kinds; } filling;
 
 static quoin_status fill(void *user, unsigned thread, size_t i) {
   (void)thread;
@@ -264,7 +267,7 @@ static quoin_status fill(void *user, unsigned thread, size_t i) {
   size_t end = (i + 1) * STRETCH < s->leaf_count ? (i + 1) * STRETCH : s->leaf_count;
   for (size_t leaf = i * STRETCH; leaf < end; leaf++) { /* in the order in which leaves lie in memory: they are the larger part */
     if (s->line_of[leaf] != NOT_MET) {
-      write_piece(s, (uint32_t)leaf, (qn_piece_kind)f->kinds[leaf], (char *)s->lines + (size_t)s->line_of[leaf] * 64);
+      write_piece(s, f->model, (uint32_t)leaf, (qn_piece_kind)f->kinds[leaf], (char *)s->lines + (size_t)s->line_of[leaf] * 64);
     }
   }
   return QUOIN_OK;
@@ -282,7 +285,7 @@ static quoin_status find_plain(void *user, unsigned thread, size_t i) {
   return QUOIN_OK;
 }
 
-quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem, const uint8_t *kinds, unsigned threads) {
+quoin_status qn_pieces_build(quoin_scene *scene, const quoin_model *model, qn_mem *mem, const uint8_t *kinds, unsigned threads) {
   const qn_normal *n = &scene->normal;
   scene->line_of = qn_alloc(mem, scene->leaf_count * sizeof *scene->line_of);
   if (!scene->line_of) {
@@ -316,7 +319,7 @@ quoin_status qn_pieces_build(quoin_scene *scene, qn_mem *mem, const uint8_t *kin
     return QUOIN_E_MEMORY;
   }
   scene->plain_count = n->term_count;
-  filling f = {scene, kinds};
+  filling f = {scene, model, kinds};
   quoin_status status = qn_parallel(threads, (scene->leaf_count + STRETCH - 1) / STRETCH, fill, &f, NULL);
   return status == QUOIN_OK ? qn_parallel(threads, (n->term_count + STRETCH - 1) / STRETCH, find_plain, scene, NULL) : status;
 }

@@ -17,9 +17,12 @@ typedef enum qn_piece_kind {
 enum { QN_MEET_PLANES = 20, QN_MEET_BODIES = 4 };
 
 typedef struct qn_piece_head {
-  uint32_t kind;
+  uint16_t kind, flags; /* flags: QN_BALL_.. */
   uint32_t leaf;
 } qn_piece_head;
+/* Of spheres, so that a hit is described without its leaf: one written as a sphere and only shifted (its own coordinates are x - centre - rest), and whether
+   its leaf is negated. */
+enum { QN_BALL_SHIFTED = 1, QN_BALL_NEGATED = 2 };
 
 typedef struct qn_piece_sphere {
   qn_piece_head head;
@@ -61,10 +64,11 @@ _Static_assert(sizeof(qn_piece_sphere) == 64 && sizeof(qn_piece_box) == 128 && s
 _Static_assert(sizeof(qn_piece_round) == 256, "whole cache lines");
 
 struct quoin_scene;
+struct quoin_model;
 struct qn_leaf;
 /* The kind of a leaf's piece, from its half-spaces and shadows. */
 qn_piece_kind qn_piece_kind_of(const struct quoin_scene *scene, const struct qn_leaf *leaf);
 /* Fills scene->lines and scene->line_of (by leaf), in the order of the normal form's leaves. kinds: by leaf. */
-QN_NODISCARD quoin_status qn_pieces_build(struct quoin_scene *scene, qn_mem *mem, const uint8_t *kinds, unsigned threads);
+QN_NODISCARD quoin_status qn_pieces_build(struct quoin_scene *scene, const struct quoin_model *model, qn_mem *mem, const uint8_t *kinds, unsigned threads);
 
 #endif

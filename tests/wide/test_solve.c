@@ -527,7 +527,7 @@ static void spheres(void **state) {
     if (!facts_of(&p)) {
       continue;
     }
-    qn_piece_sphere stored = {.head = {QN_PIECE_SPHERE, 3}, .centre = {p.pivot[0], p.pivot[1], p.pivot[2]}, .r2 = r * r, .off = qn_round_up(off), .surface = 7};
+    qn_piece_sphere stored = {.head = {QN_PIECE_SPHERE, 0, 3}, .centre = {p.pivot[0], p.pivot[1], p.pivot[2]}, .r2 = r * r, .off = qn_round_up(off), .surface = 7};
     sphere_constants k;
     sphere_prepare(&state_of_walk.f, &stored, &k);
     half_count = 1;
@@ -627,7 +627,7 @@ static void planes(void **state) {
       continue;
     }
     sphere_constants ball; /* of the box of the scene, so that what is beyond reach does not count */
-    qn_piece_sphere stored = {.head = {QN_PIECE_SPHERE, 3}, .centre = {p.pivot[0], p.pivot[1], p.pivot[2]}, .surface = 30};
+    qn_piece_sphere stored = {.head = {QN_PIECE_SPHERE, 0, 3}, .centre = {p.pivot[0], p.pivot[1], p.pivot[2]}, .surface = 30};
     for (int j = 0; j < 3; j++) {
       double size = 0.5 * (scene.max[j] - scene.min[j]) * 0.9;
       stored.r2 = j == 0 ? size * size : fmin(stored.r2, size * size);
