@@ -33,7 +33,7 @@ void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const doubl
 }
 
 /* To unit length, turned by way; left at zero when it has no direction. */
-static void unit(double g[3], double way) {
+QN_INLINE void unit(double g[3], double way) {
   double most = fmax(fabs(g[0]), fmax(fabs(g[1]), fabs(g[2])));
   if (!(most > 0) || !isfinite(most)) {
     g[0] = g[1] = g[2] = 0;
