@@ -185,6 +185,95 @@ inline void shrink(Case &c, double seconds) {
   }
 }
 
+// --- points ----------------------------------------------------------------------------------------------------------
+
+struct Points {
+  Spec spec;
+  std::vector<V> at; // as decimals one by one, or as doubles in a batch
+  bool text = false;
+  int isa = 2;
+  uint64_t spots_seed = 0;
+};
+inline quoin_status ask_points(const Bench &b, const Points &c, std::vector<quoin_side> &said) {
+  said.assign(c.at.size(), QUOIN_OUTSIDE);
+  if (!c.text) {
+    std::vector<double> x;
+    for (auto &p : c.at)
+      for (auto &e : p) x.push_back(CGAL::to_double(e));
+    return quoin_point_sides(b.model.scene, b.work(c.isa), c.at.size(), x.data(), said.data());
+  }
+  quoin_status s = QUOIN_OK;
+  for (size_t i = 0; i < c.at.size() && s == QUOIN_OK; i++) {
+    std::string d[3];
+    const char *t[3];
+    for (size_t k = 0; k < 3; k++) d[k] = decimal(c.at[i][k]), t[k] = d[k].c_str();
+    s = quoin_point_side_text(b.model.scene, b.model.work, t, &said[i]);
+  }
+  return s;
+}
+// The first point that is answered wrong, or -1.
+inline int first_wrong(const Points &c, std::string *words = nullptr) {
+  static const char *const sides[] = {"outside", "boundary", "inside"};
+  try {
+    Bench b(c.spec, c.spots_seed);
+    std::vector<quoin_side> said;
+    quoin_status status = ask_points(b, c, said);
+    for (size_t i = 0; i < c.at.size(); i++) {
+      const char *hard = nullptr, *why = nullptr;
+      int should = b.side(c.at[i], false, &hard, &why);
+      if (should < 0 || (status == QUOIN_OK && (said[i] == should || (said[i] == QUOIN_BOUNDARY && Bench::may_be_undecided(hard))))) continue;
+      if (words) *words = std::string(quoin_status_text(status)) + ", " + sides[said[i]] + ", should be " + sides[should];
+      return (int)i;
+    }
+  } catch (const std::exception &) {
+  }
+  return -1;
+}
+inline void shrink(Points &c, double seconds) {
+  const double end = now() + seconds;
+  auto keep = [&](Points x) {
+    if (now() > end || first_wrong(x) < 0) return false;
+    c = std::move(x);
+    return true;
+  };
+  int w = first_wrong(c);
+  if (w < 0) return;
+  Points x = c;
+  x.at = {c.at[(size_t)w]};
+  if (!keep(x))
+    for (size_t half = c.at.size() / 2; half > 0; half /= 2)
+      for (size_t i = 0; i + half <= c.at.size() && c.at.size() > half;) {
+        x = c;
+        x.at.erase(x.at.begin() + (long)i, x.at.begin() + (long)(i + half));
+        if (!keep(x)) i += half;
+      }
+  for (bool again = true; again && now() < end;) {
+    again = smaller(c.spec, [&](const Spec &s) {
+      Points y = c;
+      y.spec = s;
+      return keep(y);
+    });
+    for (size_t i = 0; i < c.at.size() && c.at.size() <= 8; i++)
+      for (size_t k = 0; k < 3; k++)
+        for (const Q &to : {Q(0), whole(c.at[i][k])})
+          if (c.at[i][k] != to && c.at[i][k] != 0) {
+            Points y = c;
+            y.at[i][k] = to;
+            again = keep(y) || again;
+          }
+  }
+}
+inline std::string report(const Points &c, const std::string &again) {
+  std::ostringstream w;
+  std::string said;
+  int wrong = first_wrong(c, &said);
+  w << "// wrong side of a point\n// again: " << again << "\n// asked: " << (c.text ? "quoin_point_side_text" : "quoin_point_sides") << ", " << c.at.size() << " points, the wrong one is number " << wrong << "\n";
+  w << "// QUOIN_ISA=" << ISAS[c.isa] << "\n";
+  for (auto &p : c.at) w << "// point " << decimal(p[0]) << " " << decimal(p[1]) << " " << decimal(p[2]) << "\n";
+  w << "// quoin says: " << said << "\n" << text_of(c.spec);
+  return w.str();
+}
+
 // The file to keep: the model, with the rays in comments.
 inline std::string report(const Case &c, const std::string &title, const std::string &again) {
   std::ostringstream w;
