@@ -4,9 +4,9 @@
 #include "grammar.hpp"
 
 namespace stress {
-struct Line { V o, d; int kind; };
-enum Aim { Tangent, NearTangent, Along, Parallel, At, TwoSpots, Far, Axis, Scaled, Random_, Aims };
-static const char *const AIMS[Aims] = {"tangent", "near-tangent", "along", "parallel", "at a spot", "two spots", "far", "axis", "scaled", "random"};
+struct Line { V o, d; int kind; double t; }; // t: about where the spot is; NaN where it is not met
+enum Aim { Tangent, NearTangent, Along, Parallel, At, TwoSpots, Far, Axis, Scaled, Random_, Gap, Aims };
+static const char *const AIMS[Aims] = {"tangent", "near-tangent", "along", "parallel", "at a spot", "two spots", "far", "axis", "scaled", "random", "gap as wide as bounds"};
 
 inline V small_vector(Random &r) {
   V v;
@@ -31,12 +31,20 @@ inline V shorter(const V &v) {
   if (!(m > 0) || !std::isfinite(m)) return v;
   return pow2(-std::ilogb(m)) * v;
 }
-// The model's size about a leaf: for steps away from a spot.
-inline bool aim(Random &r, const std::vector<const Spot *> &spots, Line &out) {
+// A number with all bits of a double, from 1 to 2, often next to either.
+inline double mantissa(Random &r) {
+  double m = 1 + (double)(r.next() >> 12) * 0x1p-52;
+  if (r.chance(25)) m = 1 + (double)r.below(1 << r.range(1, 12)) * 0x1p-52;
+  else if (r.chance(15)) m = 2 - (double)r.range(1, 1 << r.range(1, 12)) * 0x1p-52;
+  return m;
+}
+// gaps: between faces that nearly meet. A ray that comes from so far that a bound on its places' errors, a few to some thousand spacings of doubles, is just as
+// wide as such a gap tries every comparison with that bound.
+inline bool aim(Random &r, const std::vector<const Spot *> &spots, const std::vector<double> &gaps, Line &out, int only = -1) {
   if (spots.empty()) return false;
   const Spot &s = *spots[(size_t)r.below((int)spots.size())];
   V p = s.point, d;
-  int kind = r.below(Aims);
+  int kind = only < 0 ? r.below(Aims) : only;
   switch (kind) {
   case Tangent:
     if (zero(s.normal)) return false;
@@ -69,15 +77,24 @@ inline bool aim(Random &r, const std::vector<const Spot *> &spots, Line &out) {
   }
   if (zero(d) || !clear(d)) return false;
   d = shorter(d);
-  if (kind == Far) {
+  double t = 0;
+  if (kind == Gap) {
+    double gap = gaps.empty() ? 0 : gaps[(size_t)r.below((int)gaps.size())];
+    for (auto &e : d) // directions of all bits
+      if (e != 0 && r.chance(50)) e += pow2(-r.range(30, 51)) * Q(r.range(-3, 3));
+    t = std::ldexp(gap * mantissa(r), 53 - r.range(2, 13)) / (1 + (double)r.below(3));
+    if (!(t > 0x1p-60 && t < 0x1p60)) return false;
+    p = p - Q(t) * d;
+  } else if (kind == Far) {
     p = p - pow2(r.range(10, 40)) * d;
     if (r.chance(50)) p = p + pow2(-r.range(10, 60)) * small_vector(r);
   } else if (kind == Scaled) {
     d = pow2(r.range(-200, 200)) * d;
   } else if (r.chance(70)) {
-    p = p - (r.chance(50) ? Q(r.range(1, 50)) / Q(4) : pow2(r.range(-3, 6))) * d;
+    Q back = r.chance(50) ? Q(r.range(1, 50)) / Q(4) : pow2(r.range(-3, 6));
+    p = p - back * d, t = CGAL::to_double(back);
   }
-  out = {p, d, kind};
+  out = {p, d, kind, kind == Far || kind == Random_ || kind == Parallel || kind == NearTangent ? NAN : t};
   return is_decimal(p[0]) && is_decimal(p[1]) && is_decimal(p[2]);
 }
 
@@ -110,8 +127,8 @@ inline V direction(const Ray &r) { return {Q(r.d[0]), Q(r.d[1]), Q(r.d[2])}; }
 enum Bundle { Alone, Same, Sheet, Fan, Meet, Mixed, Grid, Near, Bundles };
 static const char *const BUNDLES[Bundles] = {"alone", "same ray", "parallel", "from one place", "to one place", "mixed", "grid", "doubles beside"};
 
-// The rays about a first one. n: how many.
-inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::vector<const Spot *> &spots, std::vector<Ray> &out) {
+// The rays about a first one. n: how many; at: where that meets its spot.
+inline void bundle(Random &r, const Ray &first, double at, int kind, size_t n, const std::vector<const Spot *> &spots, std::vector<Ray> &out) {
   out.clear();
   double size = std::max({std::fabs(first.d[0]), std::fabs(first.d[1]), std::fabs(first.d[2])});
   double step = std::ldexp(size, -r.range(0, r.chance(50) ? 8 : 52)), u[3], v[3];
@@ -148,7 +165,7 @@ inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::v
       case Mixed: {
         Line l;
         Ray other;
-        if (r.chance(30) && aim(r, spots, l) && to_ray(l, other)) x = other;
+        if (r.chance(30) && aim(r, spots, {}, l) && to_ray(l, other)) x = other;
         else if (!out.empty()) nudge(r, x = out.back());
         break;
       }
@@ -158,7 +175,7 @@ inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::v
     if (x.d[0] == 0 && x.d[1] == 0 && x.d[2] == 0) x = first;
     out.push_back(x);
   }
-  int range = r.below(10);
+  int range = r.below(12), which = r.below(3), steps = r.range(0, 12);
   for (auto &x : out) {
     x.from = -INFINITY, x.to = INFINITY;
     if (range < 3) x.from = 0;
@@ -166,6 +183,10 @@ inline void bundle(Random &r, const Ray &first, int kind, size_t n, const std::v
     else if (range == 4) x.to = std::ldexp((double)r.range(-64, 64), -2);
     else if (range == 5) {
       x.from = std::ldexp((double)r.range(-64, 64), -2), x.to = x.from + std::ldexp((double)r.range(0, 64), -2);
+    } else if (range > 9 && std::isfinite(at)) { // some spacings of doubles beside the spot
+      double beside = at + at * (double)r.range(-(1 << steps), 1 << steps) * 0x1p-53;
+      if (which != 1) x.from = beside;
+      if (which) x.to = which == 1 ? beside : beside + std::fabs(at) * (double)r.below(2 << steps) * 0x1p-53;
     }
   }
 }

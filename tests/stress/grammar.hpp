@@ -9,6 +9,8 @@ struct Style {
   bool dyadic = true;
   Census *census = nullptr;
   int motif = -1; // of all models; -1: any
+  enum { Wide = 11 }; // the motif
+  std::vector<double> *gaps = nullptr; // those that were made, in the model's own size
   void note(const char *group, const std::string &kind) const {
     if (census) census->count(group, kind);
   }
@@ -50,6 +52,7 @@ inline Q a_gap(Random &r, const Style &st) {
   int e = r.chance(60) ? r.range(44, 58) : r.range(20, 120);
   st.note("gap", e < 44 ? "2^-20 to 2^-43" : e < 59 ? "2^-44 to 2^-58" : e < 90 ? "2^-59 to 2^-89" : "2^-90 to 2^-120");
   Q g = pow2(-e);
+  if (st.gaps) st.gaps->push_back(std::ldexp(1, -e));
   return (r.chance(50) ? Q(1) : Q(-1)) * (r.chance(80) ? g : Q(3) * g);
 }
 inline Node::Op an_op(Random &r) { return (Node::Op)r.below(3); }
@@ -158,8 +161,8 @@ inline Spec simple(Shape::Kind k, std::vector<Q> p, bool center = false) {
 // Coincidences made on purpose, of about n leaves.
 inline Spec a_motif(Random &r, const Style &st, int n) {
   Q a = a_size(r, st), b = a_size(r, st), c = a_size(r, st);
-  static const char *const motifs[] = {"flush cuts", "stacked", "inscribed", "meeting in circles", "minus moved copies", "turned about an axis", "lattice", "thin shells", "touching balls", "tangent along lines", "sheets on one line"};
-  int motif = st.motif >= 0 ? st.motif : r.below(11);
+  static const char *const motifs[] = {"flush cuts", "stacked", "inscribed", "meeting in circles", "minus moved copies", "turned about an axis", "lattice", "thin shells", "touching balls", "tangent along lines", "sheets on one line", "gaps as wide as bounds"};
+  int motif = st.motif >= 0 ? st.motif : r.below(12);
   st.note("motif", motifs[motif]);
   switch (motif) {
   case 0: { // flush cuts
@@ -236,6 +239,7 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     int thin = r.range(20, 120);
     st.note("shell", thin < 44 ? "2^-20 to 2^-43" : thin < 59 ? "2^-44 to 2^-58" : "2^-59 to 2^-120");
     Q g = pow2(-thin);
+    if (st.gaps) st.gaps->push_back(std::ldexp(1, -thin));
     Shape::Kind kind = r.chance(50) ? Shape::Sphere : r.chance(50) ? Shape::Cylinder : Shape::Cube;
     auto make = [&](const Q &w) { return kind == Shape::Sphere ? simple(kind, {a + w}) : kind == Shape::Cylinder ? simple(kind, {b + 2 * w, a + w}, true) : simple(kind, {a + w, b + w, c + w}, true); };
     std::vector<Spec> k{make(g), make(0)};
@@ -293,6 +297,39 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     if (r.chance(50)) std::reverse(k.begin(), k.end());
     return k.size() > 3 && r.chance(50) ? gate(an_op(r), {gate(an_op(r), {k[0], k[1]}), gate(an_op(r), std::vector<Spec>(k.begin() + 2, k.end()))}) : gate(an_op(r), k);
   }
+  case Style::Wide: { // one gate, thin walls and thin gaps, far from the origin or not: where a place and a bound on errors are compared
+    int thin = r.chance(70) ? r.range(26, 44) : r.range(16, 56);
+    Q g = pow2(-thin) * Q(r.range(16, 31)) / 16;
+    if (st.gaps) st.gaps->push_back(CGAL::to_double(g));
+    st.note("gap", thin < 44 ? "2^-20 to 2^-43" : "2^-44 to 2^-58");
+    Shape::Kind kind = r.chance(60) ? Shape::Cube : r.chance(50) ? Shape::Sphere : Shape::Cylinder;
+    auto make = [&](const Q &w) { return kind == Shape::Sphere ? simple(kind, {a + w}) : kind == Shape::Cylinder ? simple(kind, {b + 2 * w, a + w}, true) : simple(kind, {a + w, b + w, c + w}, true); };
+    auto beside = [&](int i) { // gaps between bodies that stand in a row
+      Q step = kind == Shape::Sphere ? 2 * a : kind == Shape::Cylinder ? b : a;
+      return moved(along_axis(kind == Shape::Cube ? 0 : 2, Q(i) * (step + g)), make(0));
+    };
+    std::vector<Spec> k{make(g), make(0)};
+    Node::Op op = Node::Difference;
+    switch (r.below(4)) {
+    case 0: break; // a shell
+    case 1: // a row
+      op = Node::Union, k.clear();
+      for (int i = 0; i < std::max(2, std::min(n, 6)); i++) k.push_back(beside(i));
+      break;
+    case 2: // a row taken away: thin walls
+      k = {simple(Shape::Cube, {Q(20) * a, Q(20) * (a + b), Q(20) * (a + b)}, true)};
+      for (int i = 0; i < std::max(2, std::min(n, 6)); i++) k.push_back(beside(i));
+      break;
+    default: // a thin overlap
+      op = Node::Intersection, k = {make(0), moved(along_axis(kind == Shape::Cube ? 0 : 2, (kind == Shape::Sphere ? 2 * a : kind == Shape::Cylinder ? b : a) - g), make(0))};
+    }
+    if (r.chance(50)) {
+      V v{0, 0, 0};
+      for (auto &e : v) e = r.chance(50) ? Q(r.range(-9, 9)) : pow2(r.range(4, 20)) * Q(r.range(-9, 9));
+      for (auto &s : k) s = moved(v, s);
+    }
+    return gate(op, k);
+  }
   default: { // a box and a round solid with a common generator or circle: all tangent along lines
     std::vector<Spec> k{moved({-a, -a, 0}, simple(Shape::Cube, {2 * a, 2 * a, b})), simple(Shape::Cylinder, {b, a})};
     if (n > 2) k.push_back(moved({2 * a + a_gap(r, st), 0, 0}, simple(Shape::Cylinder, {b, a})));
@@ -333,6 +370,10 @@ inline Spec in_frame(Random &r, const Style &st, Spec s, std::string &frame) {
     Step f;
     f.kind = Step::Scale, f.v = v;
     s = around(f, s);
+    for (size_t i = 0, n = st.gaps ? st.gaps->size() : 0; i < n; i++) { // along one of the axes
+      double gap = (*st.gaps)[i];
+      (*st.gaps)[i] = gap * CGAL::to_double(v[r.below(3)]);
+    }
   };
   auto power = [&](int ten) { return st.dyadic ? pow2(ten * 10 / 3) : pow10(ten); };
   auto decades = [](int ten) { return ten < -6 ? "1e-9 to 1e-7" : ten < -3 ? "1e-6 to 1e-4" : ten < 0 ? "1e-3 to 1e-1" : ten < 4 ? "1 to 1e3" : ten < 7 ? "1e4 to 1e6" : ten < 10 ? "1e7 to 1e9" : "1e10 to 1e12"; };

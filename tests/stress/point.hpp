@@ -5,7 +5,7 @@
 // interval of x in which no conic turns (b^2 = 4 a c), meets another (the resultant), has a vertical asymptote (a = 0 = b) or meets the face's border, the cells are
 // stacked in one order, so one line of constant x crosses all of them, and every cell lies over some such interval. So: the roots of all these polynomials as CGAL's
 // algebraic numbers, a rational between each two neighbours, and there the exact evaluator on a line. All stretches inside: P is inside; all outside: outside; else P is on the
-// boundary. "Small" is 2^-1000 of the numbers there, as in ring.hpp.
+// boundary. "Small" is 2^-400 of the numbers there: features that models of such numbers have are above 2^-300.
 //
 // Two conics with a common line have no resultant: with both a not 0 their other lines meet where a1 b2 = a2 b1; and a line is among the other's own turns.
 #pragma once
@@ -160,7 +160,7 @@ inline int around(const Node &solid, const Surfaces &surfaces, const std::vector
   Q size = 1;
   for (auto &e : p)
     if (e != 0) size = CGAL::abs(e) < size ? CGAL::abs(e) : size;
-  const Q small = size * pow2(-1000);
+  const Q small = size * pow2(-400);
   const V corner[4] = {p + small * V{Q(7) / 8, Q(-3) / 5, Q(9) / 11}, p + small * V{Q(-6) / 7, Q(-5) / 9, Q(-8) / 13}, p + small * V{Q(2) / 9, Q(1), Q(-4) / 5}, p + small * V{Q(-3) / 11, Q(4) / 7, Q(10) / 13}};
   Faces f{solid, surfaces, through, signs, std::vector<Cursor>(surfaces.of.size())};
   for (int k = 0; k < 4; k++)

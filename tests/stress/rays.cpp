@@ -124,7 +124,8 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
   Random r(seed);
   Style st;
   st.dyadic = r.chance(60);
-  st.census = &t.census, st.motif = o.motif;
+  std::vector<double> gaps;
+  st.census = &t.census, st.motif = o.motif, st.gaps = &gaps;
   std::string frame;
   Spec spec = a_model(r, st, o.leaves, frame);
   uint64_t spots_seed = r.next();
@@ -139,14 +140,17 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
   t.models++, t.leaves += leaves_of(spec);
   std::vector<Ray> rays;
   int bundles = r.range(16, 48); // a model costs as much as a thousand rays
+  const bool wide = o.motif == Style::Wide; // bounds are a packet's: many packets of few rays
+  if (wide) bundles = 400;
   for (int k = 0; k < bundles; k++) {
     Line line;
     Ray first;
-    if (!aim(r, b->spots, line) || !to_ray(line, first)) continue;
+    if (!aim(r, b->spots, gaps, line, wide && r.chance(90) ? Gap : -1) || !to_ray(line, first)) continue;
     int kind = r.below(Bundles), way = r.below(100);
     way = way < 15 ? One : way < 40 ? Many : way < 52 ? ManyBoundary : way < 64 ? Hits : way < 71 ? Hit : way < 74 ? Text : way < 84 ? Spots : way < 94 ? Blocked : ManyText;
     size_t n = kind == Alone ? 1 : way == Text ? 4 : (size_t)(r.chance(50) ? 64 : r.chance(50) ? r.range(1, 63) : r.range(65, 140));
-    bundle(r, first, kind, n, b->spots, rays);
+    if (wide) n = (size_t)(r.chance(90) ? r.range(2, 4) : r.range(17, 20));
+    bundle(r, first, line.t, kind, n, b->spots, rays);
     if (way == ManyText)
       for (auto &x : rays) x.from = rays[0].from, x.to = rays[0].to;
     int isa = r.below(3);
