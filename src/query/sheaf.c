@@ -65,6 +65,7 @@ static int make(quoin_work *work) {
   }
   work->sheaf->count = qn_alloc(work->mem, program->gate_count * sizeof *work->sheaf->count);
   work->sheaf->deep = program->paths ? qn_scratch_eval(work->scratch) : NULL;
+  work->sheaf->spans.plans = work->sheaf->deep ? NULL : work->sheaf->plans, work->sheaf->spans.gate_count = work->sheaf->count;
   if (!work->sheaf->count || !room_for_slots(work, SLOTS_AT_FIRST)) {
     qn_sheaf_free(work);
     return 0;

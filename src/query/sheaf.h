@@ -22,6 +22,7 @@ struct qn_sheaf {
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
   qn_sheaf_role roles[1 << QN_SHEAF_ROLE_BITS]; /* some that were asked for */
+  qn_span_plan plans[1 << QN_PLAN_BITS]; /* of a program that is not deep */
   uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
   /* Of a grid: found is all of it, and */
   quoin_interval *boundary; size_t boundary_count, boundary_capacity;

@@ -84,6 +84,16 @@ typedef struct qn_span_slot {
   uint32_t leaf, gate;
   uint8_t negated, settles, hit; /* settles: in the leaf the gate has its value whatever the others do; hit: the lanes of the group that meet the leaf */
 } qn_span_slot;
+/* An order of the ends of leaves that lanes meet, and what it makes of the solid (wide/spans_plan.h). From zeros: that of no leaves. */
+enum { QN_PLAN_LEAVES = 48, QN_PLAN_BITS = 5 };
+typedef struct qn_span_plan {
+  uint32_t leaves, ends, drops, rows;
+  uint32_t leaf[QN_PLAN_LEAVES];     /* in the order in which they are met */
+  uint16_t end[2 * QN_PLAN_LEAVES];  /* in order */
+  uint16_t row[2 * QN_PLAN_LEAVES];  /* where the solid is entered and left, in turn */
+  uint8_t drop[QN_PLAN_LEAVES][2];   /* the first one's stretch changes nothing while it lies well within the other's */
+  uint8_t empty;                     /* these leaves make no solid in any order */
+} qn_span_plan;
 typedef struct qn_packet_spans {
   double *ends;          /* aligned to 64 */
   qn_span_slot *slots;   /* slot s of group g is slots[g capacity + s] */
@@ -95,10 +105,12 @@ typedef struct qn_packet_spans {
   double reach;          /* nothing that is found at a larger |t| means anything */
   _Alignas(64) double tolerance[QN_LANES]; /* two places further apart than this are in the order of their doubles; half of it bounds each error */
   /* The solid's own stretches in the lanes of `merged`: of lane i, ends 0 to row_count[i] - 1, in order, end j at row_t[j QN_LANES + i], its payload
-     as bits likewise. Of simple programs only (wide/spans_merge.h). There is room for 2 capacity + 2 rows. */
+     as bits likewise. Of simple programs (wide/spans_merge.h), or by plans (wide/spans_plan.h). There is room for 2 capacity + 2 rows. */
   double *row_t, *row_name; /* aligned to 64 */
   uint32_t row_count[QN_LANES];
   uint64_t merged;
+  qn_span_plan *plans;  /* 1 << QN_PLAN_BITS of them, kept from packet to packet of one scene; null: none */
+  uint32_t *gate_count; /* with plans: for each gate of the program its `base`, before and after */
   uint64_t *pending; /* by row, of the first `rows`: the lanes whose t is to be rounded yet (qn_round_flats_fn) */
   uint32_t rows;
 } qn_packet_spans;

@@ -1,11 +1,12 @@
 /* Every stretch of a packet's rays in the leaves that they meet. Compiled behind packet_body.h for each instruction set and number of lanes.
 
    The hierarchy of all leaves is walked once for the packet, nearest boxes first, so that a lane's stretches come nearly in order; each leaf
-   is solved for the lanes whose boxes meet its own. Of a simple program they are then merged (spans_merge.h); else that is left to others. */
+   is solved for the lanes whose boxes meet its own. Then they are merged: of a simple program by sorting (spans_merge.h), of another by plans (spans_plan.h); what is not certain there
+   is left to others. */
 #ifndef QN_WIDE_SPANS_BODY_H
 #define QN_WIDE_SPANS_BODY_H
 
-#include "wide/spans_merge.h"
+#include "wide/spans_plan.h"
 
 /* NOLINTNEXTLINE(misc-redundant-expression): they are equal today; that is what is asserted */
 _Static_assert(QN_SPAN_LARGER == QN_LARGER_ROOT && QN_SPAN_LEAF == QN_LEAF_BITS, "packet.h tells what payloads are");
@@ -148,7 +149,11 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
   out->reach = w.f.reach;
   counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
   if (!out->full) {
-    merge_groups(&w, out);
+    if (QN_LANES_NOW == QN_LANES && out->plans && !can_merge(&scene->program) && !scene->program.base) {
+      plan_groups(&w, out);
+    } else {
+      merge_groups(&w, out);
+    }
     out->merged &= packet->live & ~w.unsure;
   }
 }

@@ -101,6 +101,10 @@ QN_INLINE vm vmask(unsigned bits) { return (vm)bits; }
 QN_INLINE unsigned vsecond(vd a) { return _mm512_movepi64_mask(_mm512_slli_epi64(_mm512_castpd_si512(a), 1)); } /* the bit below the sign */
 QN_INLINE vd vbitor(vd a, vd b) { return _mm512_or_pd(a, b); }
 QN_INLINE vd vwords(const uint32_t *p) { return _mm512_castsi512_pd(_mm512_cvtepu32_epi64(_mm256_loadu_si256((const __m256i *)(const void *)p))); } /* zero-extended */
+/* Lanes whose bits are the same where `where` has ones. */
+QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
+  return _mm512_testn_epi64_mask(_mm512_xor_si512(_mm512_castpd_si512(a), _mm512_castpd_si512(b)), _mm512_set1_epi64((long long)where));
+}
 /* Lanes j and j + 1 of a and b in turn: a0 b0 a1 b1 into to[0], a2 b2 a3 b3 into to[1], and so on; no alignment. */
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   const __m512i even = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0), odd = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
@@ -142,6 +146,10 @@ QN_INLINE unsigned vsigns(vd a) { return (unsigned)_mm256_movemask_pd(a); }
 QN_INLINE unsigned vsecond(vd a) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(a), 1))); }
 QN_INLINE vd vbitor(vd a, vd b) { return _mm256_or_pd(a, b); }
 QN_INLINE vd vwords(const uint32_t *p) { return _mm256_castsi256_pd(_mm256_cvtepu32_epi64(_mm_loadu_si128((const __m128i *)(const void *)p))); }
+QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
+  const __m256i differ = _mm256_and_si256(_mm256_xor_si256(_mm256_castpd_si256(a), _mm256_castpd_si256(b)), _mm256_set1_epi64x((long long)where));
+  return _mm256_castsi256_pd(_mm256_cmpeq_epi64(differ, _mm256_setzero_si256()));
+}
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   __m256d x = _mm256_unpacklo_pd(a, b), y = _mm256_unpackhi_pd(a, b); /* a0 b0 a2 b2, a1 b1 a3 b3 */
   _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(x, y, 0x20)), _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(x, y, 0x31));
@@ -183,6 +191,11 @@ QN_INLINE unsigned vsigns(vd a) { return (unsigned)_mm_movemask_pd(a); }
 QN_INLINE unsigned vsecond(vd a) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(a), 1))); }
 QN_INLINE vd vbitor(vd a, vd b) { return _mm_or_pd(a, b); }
 QN_INLINE vd vwords(const uint32_t *p) { return _mm_castsi128_pd(_mm_set_epi64x((long long)p[1], (long long)p[0])); }
+QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
+  const __m128i differ = _mm_and_si128(_mm_xor_si128(_mm_castpd_si128(a), _mm_castpd_si128(b)), _mm_set1_epi64x((long long)where));
+  const __m128i halves = _mm_cmpeq_epi32(differ, _mm_setzero_si128());
+  return _mm_castsi128_pd(_mm_and_si128(halves, _mm_shuffle_epi32(halves, _MM_SHUFFLE(2, 3, 0, 1))));
+}
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   _mm_storeu_pd(to[0], _mm_unpacklo_pd(a, b)), _mm_storeu_pd(to[0] + 2, _mm_unpackhi_pd(a, b));
 }
