@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -159,6 +160,44 @@ CALL(build) {
   *a = 1;
   return s;
 }
+CALL(build_rest) { /* what build does not add, each below the one before as far as that is a transform */
+  quoin_node n = QUOIN_ROOT;
+  const double v[4] = {1, 0.5, 0.25, 1};
+  static const double q[10] = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1};
+  quoin_status s = quoin_add_translate(b->model, n, v, &n);
+  s = s == QUOIN_OK ? quoin_add_scale(b->model, n, v, &n) : s;
+  s = s == QUOIN_OK ? quoin_add_color(b->model, n, v, &n) : s;
+  s = s == QUOIN_OK ? quoin_add_sphere(b->model, n, 1, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_ellipsoid(b->model, n, v, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_cube(b->model, n, v, 0, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_wedge(b->model, n, v, 1, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_paraboloid(b->model, n, 1, 0.5, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_hyperboloid(b->model, n, 1, 0.5, 0.25, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_hyperboloid2(b->model, n, 1, 0.5, 0.25, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_saddle(b->model, n, 1, 2, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_halfspace(b->model, n, v, 3, NULL) : s;
+  s = s == QUOIN_OK ? quoin_add_quadric(b->model, n, q, NULL) : s;
+  *a = 1;
+  return s;
+}
+CALL(model_new) {
+  const quoin_allocator allocator = {take, resize, release, b->m, 0};
+  quoin_model *model = NULL;
+  quoin_status s = quoin_model_new(&allocator, &model);
+  *a += model != NULL;
+  assert_true((s == QUOIN_OK) == (model != NULL));
+  quoin_model_free(model);
+  return s;
+}
+static char file[] = "machine_calls_XXXXXX";
+CALL(read_file) {
+  quoin_status s = quoin_model_read_file(b->model, QUOIN_ROOT, file, NULL);
+  if (s == QUOIN_OK) {
+    b->m->countdown = b->m->one_in = 0;
+    *a = tree_of(b->model);
+  }
+  return s;
+}
 CALL(write_tree) { return quoin_model_write_tree(b->model, write_to, a); }
 CALL(compile) {
   quoin_scene *scene = NULL;
@@ -235,6 +274,13 @@ CALL(point_texts) {
   add(a, sides, s == QUOIN_OK ? sizeof sides : 0);
   return s;
 }
+CALL(point_parts) {
+  quoin_part parts[8];
+  size_t count = 0;
+  quoin_status s = quoin_point_parts(b->scene, b->work, (const double[3]){0, 0, 3}, parts, 8, &count);
+  add(a, parts, s == QUOIN_OK ? (count < 8 ? count : 8) * sizeof *parts : 0);
+  return s;
+}
 CALL(ray) {
   for (int i = 0; i < RAYS; i++) {
     quoin_intervals v;
@@ -256,6 +302,15 @@ CALL(ray_text) {
   return s;
 }
 CALL(ray_texts_block) { return quoin_ray_intervals_many_text(b->scene, b->work, RAYS, ray_texts, NULL, "100", 0, each, a); }
+CALL(hit) {
+  quoin_hit got;
+  quoin_status s = QUOIN_OK;
+  for (int i = 0; i < RAYS && s == QUOIN_OK; i++) {
+    s = quoin_first_hit(b->scene, b->work, &rays[i], &got);
+    add(a, &got.t, s == QUOIN_OK ? sizeof got.t : 0);
+  }
+  return s;
+}
 CALL(hits) {
   quoin_hit got[RAYS];
   quoin_status s = quoin_first_hits(b->scene, b->work, RAYS, rays, got);
@@ -287,6 +342,17 @@ CALL(grid) {
   }
   return s;
 }
+CALL(grid_intervals) {
+  const quoin_grid g = {{-8, -8, 9}, {20, 0, 0}, {0, 12, 0}, {0.125, 0.25, -1}, SIDE, SIDE, 0, 0, HUGE_VAL};
+  quoin_grid_answer got;
+  quoin_status s = quoin_grid_intervals(b->scene, b->work, &g, 0, 0, SIDE, SIDE, QUOIN_WANT_BOUNDARY, &got);
+  for (size_t i = 0; s == QUOIN_OK && i < got.rays; i++) {
+    const quoin_intervals v = {.count = got.inside_of[i].count, .inside = got.inside + got.inside_of[i].first,
+                               .boundary_count = got.boundary_of[i].count, .boundary = got.boundary_count ? got.boundary + got.boundary_of[i].first : NULL};
+    intervals(a, &v);
+  }
+  return s;
+}
 CALL(render) {
   unsigned char pixels[4 * SIDE * SIDE];
   quoin_render_options o = quoin_render_options_default();
@@ -300,12 +366,13 @@ CALL(render) {
 
 enum { MODEL, SCENE, WORK };
 static const struct { const char *name; int needs; int allocates; quoin_status (*run)(bench *, answer *); } calls[] = {
-  {"read_text", MODEL, 1, read_text}, {"read_errors", MODEL, 1, read_errors}, {"build", MODEL, 0, build}, {"write_tree", MODEL, 1, write_tree},
+  {"read_text", MODEL, 1, read_text}, {"read_errors", MODEL, 1, read_errors}, {"build", MODEL, 0, build},
+  {"build_rest", MODEL, 0, build_rest}, {"model_new", MODEL, 1, model_new}, {"read_file", MODEL, 1, read_file}, {"write_tree", MODEL, 1, write_tree},
   {"compile", MODEL, 1, compile}, {"snap", MODEL, 1, snap}, {"near_find", SCENE, 1, near_pairs}, {"scene_write_text", SCENE, 1, scene_text},
   {"work_new", SCENE, 1, work_new}, {"point_side", WORK, 0, point}, {"point_sides", WORK, 0, point_batch}, {"point_side_text", WORK, 0, point_text},
-  {"point_sides_text", WORK, 0, point_texts}, {"ray_intervals", WORK, 1, ray}, {"ray_intervals_many", WORK, 1, ray_block},
-  {"ray_intervals_text", WORK, 0, ray_text}, {"ray_intervals_many_text", WORK, 1, ray_texts_block}, {"first_hits", WORK, 1, hits},
-  {"first_spots", WORK, 1, spots}, {"rays_blocked", WORK, 1, blocked}, {"grid_hits", WORK, 1, grid}, {"render", SCENE, 1, render},
+  {"point_sides_text", WORK, 0, point_texts}, {"point_parts", WORK, 0, point_parts}, {"ray_intervals", WORK, 1, ray}, {"ray_intervals_many", WORK, 1, ray_block},
+  {"ray_intervals_text", WORK, 0, ray_text}, {"ray_intervals_many_text", WORK, 1, ray_texts_block}, {"first_hit", WORK, 0, hit}, {"first_hits", WORK, 1, hits},
+  {"first_spots", WORK, 1, spots}, {"rays_blocked", WORK, 1, blocked}, {"grid_hits", WORK, 1, grid}, {"grid_intervals", WORK, 1, grid_intervals}, {"render", SCENE, 1, render},
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 
@@ -345,7 +412,7 @@ static int refused_once(size_t i, const meter *set, answer want, int *failed) {
     if (s != QUOIN_E_MEMORY || m.refusals == 0) {
       fail_msg("%s, allocation %zu (one in %zu): status %d", calls[i].name, set->countdown, set->one_in, (int)s);
     }
-    if (calls[i].run == read_text || calls[i].run == read_errors || calls[i].run == compile) {
+    if (calls[i].run == read_text || calls[i].run == read_errors || calls[i].run == read_file || calls[i].run == compile) {
       assert_true(tree_of(b.model) == before); /* no effect */
     }
     got = 1;
@@ -394,6 +461,13 @@ int main(void) {
     }
     memcpy(points + 3 * i, rays[i].o, sizeof rays[i].o);
   }
+  int made = mkstemp(file);
+  if (made < 0 || write(made, text, sizeof text - 1) != (ssize_t)(sizeof text - 1) || close(made)) {
+    perror(file);
+    return 1;
+  }
   const struct CMUnitTest tests[] = {cmocka_unit_test(each_call)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  unlink(file);
+  return failed;
 }
