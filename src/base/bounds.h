@@ -23,6 +23,11 @@
 #define QN_PRINT_ERROR 0x1p-36
 #define QN_PRINT_CELL 0x1p-33
 
+/* Polyhedra as they are written (src/model/polyhedron_face.c): n.p - d from the doubles nearest to its numbers, each 0 or of a size between
+   QN_POLYHEDRON_LARGEST and its inverse, is within QN_POLYHEDRON_SIDE >= 7u times the sum of its terms' sizes, all as computed. */
+#define QN_POLYHEDRON_SIDE (8 * QN_U)
+#define QN_POLYHEDRON_LARGEST 0x1p+300
+
 /* Ray and box. QN_BOX_SLACK >= 6.05u: relative widening of the parameters at which a line meets the planes of a box.
    QN_BOX_LARGEST: an axis with |o| or 1/|d| beyond it is not used. QN_BOX_TINY >= any loss by underflow within that range. */
 #define QN_BOX_SLACK (8 * QN_U)

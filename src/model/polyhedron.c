@@ -25,6 +25,7 @@ enum { POINTS, FACES, CONVEXITY, TRIANGLES };
 
 typedef struct edge { uint32_t low, high; int turn; } edge;
 typedef struct loop { uint32_t first, count; } loop; /* of corner indices */
+typedef struct meeting { uint32_t *items; size_t count; } meeting; /* the points on a plane, rising; later the planes at a point, rising */
 
 typedef struct body {
   qn_call *call;
@@ -37,92 +38,15 @@ typedef struct body {
   size_t loop_count;
   uint32_t *corners;
   size_t corner_count;
+  double (*near)[3];    /* by point: qn_polyhedron_shadow */
   qn_num *planes;       /* 4 each, distinct */
+  double (*near_planes)[4];
+  meeting *on;          /* by plane */
   size_t plane_count;
 } body;
 
-static qn_num cross_component(qn_ctx *ctx, const qn_num *a, const qn_num *b, size_t i) {
-  size_t j = (i + 1) % 3, k = (i + 2) % 3;
-  qn_num x[2] = {a[j], a[k]}, y[2] = {b[k], qn_num_neg(ctx, b[j])};
-  return qn_num_dot(ctx, 2, x, y);
-}
-
-enum { EFFORT_SIDE = 256, EFFORT_TURN = 2048 }; /* QN_MAX_EFFORT: some 1800 faces of 900 points, or two faces of 700 */
-
-/* The sign of n.p - d. */
-static int side(qn_ctx *ctx, const qn_num plane[4], const qn_num *p) {
-  qn_ctx_spend(ctx, 1, EFFORT_SIDE);
-  qn_mark mark = qn_arena_mark(&ctx->arena);
-  qn_num x[4] = {plane[0], plane[1], plane[2], plane[3]}, y[4] = {p[0], p[1], p[2], qn_num_from_int(ctx, -1)};
-  int sign = qn_num_sign(qn_num_dot(ctx, 4, x, y));
-  qn_arena_release(&ctx->arena, mark);
-  return sign;
-}
-
-/* The outward plane of a loop of points; 0 when it has no area. */
-static int plane_of(qn_ctx *ctx, const qn_num *points, const uint32_t *corners, size_t count, qn_num plane[4]) {
-  const qn_num *origin = points + (size_t)3 * corners[0];
-  qn_num n[3] = {QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ZERO};
-  qn_num a[3], b[3];
-  for (size_t i = 0; i + 1 < count; i++) { /* relative to the first point: smaller numbers, and its own terms are zero */
-    const qn_num *p = points + (size_t)3 * corners[i], *q = points + (size_t)3 * corners[i + 1];
-    for (size_t k = 0; k < 3; k++) {
-      a[k] = qn_num_sub(ctx, p[k], origin[k]);
-      b[k] = qn_num_sub(ctx, q[k], origin[k]);
-    }
-    for (size_t k = 0; k < 3; k++) {
-      n[k] = qn_num_sub(ctx, n[k], cross_component(ctx, a, b, k));
-    }
-  }
-  size_t lead = 0;
-  while (lead < 3 && qn_num_is_zero(n[lead])) {
-    lead++;
-  }
-  if (lead == 3) {
-    return 0;
-  }
-  qn_num by = qn_num_abs(ctx, n[lead]);
-  for (size_t k = 0; k < 3; k++) {
-    plane[k] = qn_num_div(ctx, n[k], by);
-  }
-  plane[3] = qn_num_dot(ctx, 3, plane, origin);
-  return 1;
-}
-
-size_t qn_polyhedron_face(qn_ctx *ctx, const qn_num plane[4], const qn_num *vertices, size_t m, uint32_t *corners) {
-  size_t count = 0;
-  for (size_t i = 0; i < m; i++) {
-    if (side(ctx, plane, vertices + 3 * i) == 0) {
-      corners[count++] = (uint32_t)i;
-    }
-  }
-  /* The corner after `here` is the one that has every other on its right: (next - here) x (other - here) . n < 0. */
-  for (size_t k = 0; k + 1 < count; k++) {
-    const qn_num *here = vertices + (size_t)3 * corners[k];
-    for (size_t j = k + 2; j < count && qn_ctx_spend(ctx, 1, EFFORT_TURN); j++) {
-      qn_mark mark = qn_arena_mark(&ctx->arena);
-      const qn_num *next = vertices + (size_t)3 * corners[k + 1], *other = vertices + (size_t)3 * corners[j];
-      qn_num d[3], e[3], cross[3];
-      for (size_t i = 0; i < 3; i++) {
-        d[i] = qn_num_sub(ctx, next[i], here[i]);
-        e[i] = qn_num_sub(ctx, other[i], here[i]);
-      }
-      for (size_t i = 0; i < 3; i++) {
-        cross[i] = cross_component(ctx, d, e, i);
-      }
-      if (qn_num_sign(qn_num_dot(ctx, 3, cross, plane)) > 0) {
-        uint32_t swap = corners[k + 1];
-        corners[k + 1] = corners[j];
-        corners[j] = swap;
-      }
-      qn_arena_release(&ctx->arena, mark);
-    }
-  }
-  return count;
-}
-
 static void *room(body *b, size_t size) {
-  void *p = qn_arena_take(&b->ctx->arena, size);
+  void *p = qn_arena_take(&b->ctx->arena, size + 1); /* something, even for nothing */
   if (!p) {
     b->call->ev->failed = QUOIN_E_MEMORY;
   }
@@ -171,46 +95,31 @@ static int order(qn_ctx *ctx, const qn_num *p, const qn_num *q) {
   return 0;
 }
 
-/* Finds points that are equal: heap sort, as qsort takes no context. */
+static int by_place(void *user, uint32_t i, uint32_t j) {
+  body *b = user;
+  int c = order(b->ctx, b->points + (size_t)3 * i, b->points + (size_t)3 * j);
+  return c ? c : (i > j) - (i < j);
+}
+
+/* Finds points that are equal. */
 static int find_same(body *b) {
   size_t n = b->point_count;
-  uint32_t *heap = room(b, n * sizeof *heap);
+  uint32_t *sorted = room(b, n * sizeof *sorted);
   b->same = room(b, n * sizeof *b->same);
   b->used = room(b, n * sizeof *b->used);
-  if (!heap || !b->same || !b->used) {
+  b->near = room(b, n * sizeof *b->near);
+  if (!sorted || !b->same || !b->used || !b->near || !qn_ctx_spend(b->ctx, n, QN_EFFORT_POINT)) {
     return 0;
   }
   memset(b->used, 0, n);
   for (size_t i = 0; i < n; i++) {
-    heap[i] = (uint32_t)i;
+    sorted[i] = (uint32_t)i;
+    qn_polyhedron_shadow(3, b->points + 3 * i, b->near[i]);
   }
-  for (size_t start = n / 2, end = n; end > 1;) {
-    if (start > 0) {
-      start--;
-    } else {
-      end--;
-      uint32_t swap = heap[0];
-      heap[0] = heap[end];
-      heap[end] = swap;
-    }
-    for (size_t at = start, child; (child = 2 * at + 1) < end; at = child) {
-      const qn_num *here = b->points + (size_t)3 * heap[at];
-      if (child + 1 < end) {
-        int c = order(b->ctx, b->points + (size_t)3 * heap[child], b->points + (size_t)3 * heap[child + 1]);
-        child += c < 0 || (c == 0 && heap[child] < heap[child + 1]);
-      }
-      int c = order(b->ctx, here, b->points + (size_t)3 * heap[child]);
-      if (c > 0 || (c == 0 && heap[at] >= heap[child])) {
-        break;
-      }
-      uint32_t swap = heap[at];
-      heap[at] = heap[child];
-      heap[child] = swap;
-    }
-  }
+  qn_polyhedron_sort(sorted, n, by_place, b);
   for (size_t i = 0; i < n; i++) {
-    int equal = i > 0 && order(b->ctx, b->points + (size_t)3 * heap[i - 1], b->points + (size_t)3 * heap[i]) == 0;
-    b->same[heap[i]] = equal ? b->same[heap[i - 1]] : heap[i];
+    int equal = i > 0 && order(b->ctx, b->points + (size_t)3 * sorted[i - 1], b->points + (size_t)3 * sorted[i]) == 0;
+    b->same[sorted[i]] = equal ? b->same[sorted[i - 1]] : sorted[i];
   }
   return 1;
 }
@@ -306,44 +215,90 @@ static int closed(body *b) {
   return 1;
 }
 
-static int equal_planes(qn_ctx *ctx, const qn_num *a, const qn_num *b) {
+/* 1 where the numbers of two planes are equal, -1 where they are each other's negatives, else 0. */
+static int same_plane(qn_ctx *ctx, const qn_num *a, const qn_num *b, int sign) {
   for (size_t k = 0; k < 4; k++) {
-    if (qn_num_cmp(ctx, a[k], b[k]) != 0) {
+    if (qn_num_cmp(ctx, a[k], sign > 0 ? b[k] : qn_num_neg(ctx, b[k])) != 0) {
       return 0;
     }
   }
+  return sign;
+}
+
+/* The distinct plane, outward, that this one is, or is turned over (*turn: 1, -1); plane_count when it is a new one. */
+static size_t find_plane(body *b, const qn_num plane[4], const double near[4], int *turn) {
+  size_t i = 0;
+  qn_ctx_spend(b->ctx, b->plane_count, QN_EFFORT_QUICK);
+  for (*turn = 0; i < b->plane_count; i++) {
+    int may = qn_polyhedron_may_be(b->near_planes[i], near);
+    qn_mark mark = qn_arena_mark(&b->ctx->arena);
+    *turn = may & 1 ? same_plane(b->ctx, b->planes + 4 * i, plane, 1) : 0;
+    *turn = *turn == 0 && may & 2 ? same_plane(b->ctx, b->planes + 4 * i, plane, -1) : *turn;
+    qn_arena_release(&b->ctx->arena, mark);
+    if (*turn) {
+      break;
+    }
+  }
+  return i;
+}
+
+/* On which sides of a new plane the used points lie (*below, *above); those on it become `on`. 0 when memory is refused or too much was done. */
+static int find_sides(body *b, const qn_num plane[4], const double near[4], uint32_t *list, int *below, int *above, meeting *on) {
+  size_t count = 0;
+  *below = *above = 0;
+  qn_ctx_spend(b->ctx, b->point_count, QN_EFFORT_QUICK);
+  for (size_t i = 0; i < b->point_count && !(*below && *above) && !b->ctx->failed; i++) {
+    if (b->used[i]) {
+      int s = qn_polyhedron_side(b->ctx, plane, near, b->points + 3 * i, b->near[i]);
+      *below |= s < 0;
+      *above |= s > 0;
+      list[count] = (uint32_t)i;
+      count += s == 0;
+    }
+  }
+  on->count = count;
+  on->items = room(b, count * sizeof *on->items);
+  if (b->ctx->failed || !on->items) {
+    return 0;
+  }
+  memcpy(on->items, list, count * sizeof *on->items);
   return 1;
 }
 
-/* The distinct planes, outward; 0 on an error. */
+/* The distinct planes, outward, and the points on each; 0 on an error. */
 static int find_planes(body *b) {
   b->planes = room(b, (b->loop_count + 1) * 4 * sizeof *b->planes);
-  if (!b->planes) {
+  b->near_planes = room(b, (b->loop_count + 1) * sizeof *b->near_planes);
+  b->on = room(b, (b->loop_count + 1) * sizeof *b->on);
+  uint32_t *list = room(b, b->point_count * sizeof *list);
+  if (!b->planes || !b->near_planes || !b->on || !list) {
     return 0;
   }
   size_t inside_out = 0, right = 0;
   for (size_t f = 0; f < b->loop_count; f++) {
     const loop *l = &b->loops[f];
     qn_num *plane = b->planes + 4 * b->plane_count;
-    if (l->count < 3 || !plane_of(b->ctx, b->points, b->corners + l->first, l->count, plane)) {
+    double *near = b->near_planes[b->plane_count];
+    if (l->count < 3 || !qn_polyhedron_plane(b->ctx, b->points, b->corners + l->first, l->count, plane)) {
       continue; /* no area: it adds nothing but its edges */
     }
+    qn_polyhedron_shadow(4, plane, near);
     for (uint32_t i = 0; i < l->count; i++) {
-      if (side(b->ctx, plane, b->points + (size_t)3 * b->corners[l->first + i]) != 0) {
+      uint32_t p = b->corners[l->first + i];
+      if (qn_polyhedron_side(b->ctx, plane, near, b->points + (size_t)3 * p, b->near[p]) != 0) {
         qn_arg_tell(b->call, QN_Q0512, FACES, "its points are taken exactly as they are written",
                     "split it into triangles", "face %zu is not plane", f);
         return 0;
       }
     }
-    int below = 0, above = 0;
-    for (size_t i = 0; i < b->point_count && !(below && above) && !b->ctx->failed; i++) {
-      if (b->used[i]) {
-        int s = side(b->ctx, plane, b->points + 3 * i);
-        below |= s < 0;
-        above |= s > 0;
-      }
+    int turn = 0, below = 0, above = 0;
+    size_t same = find_plane(b, plane, near, &turn);
+    if (same < b->plane_count) { /* its sides are known: of the kept one, outward, all points are below */
+      inside_out += turn < 0;
+      right += turn > 0;
+      continue;
     }
-    if (b->ctx->failed) {
+    if (!find_sides(b, plane, near, list, &below, &above, &b->on[b->plane_count])) {
       return 0;
     }
     if (below && above) {
@@ -360,12 +315,9 @@ static int find_planes(body *b) {
     right += below != 0;
     for (size_t k = 0; above && k < 4; k++) {
       plane[k] = qn_num_neg(b->ctx, plane[k]);
+      near[k] = -near[k];
     }
-    size_t same = 0;
-    while (same < b->plane_count && !equal_planes(b->ctx, b->planes + 4 * same, plane)) {
-      same++;
-    }
-    b->plane_count += same == b->plane_count;
+    b->plane_count++;
   }
   if (inside_out && right) {
     qn_arg_tell(b->call, QN_Q0511, FACES, NULL, "list each face's points clockwise as seen from outside",
@@ -384,21 +336,18 @@ static int find_planes(body *b) {
 }
 
 /* Do the normals of the planes through a point span space? */
-static int is_corner(body *b, const qn_num *p) {
+static int is_corner(body *b, const meeting *through) {
   qn_mark mark = qn_arena_mark(&b->ctx->arena);
   const qn_num *first = NULL;
   qn_num cross[3];
   int have_two = 0, found = 0;
-  for (size_t i = 0; i < b->plane_count && !found; i++) {
-    const qn_num *plane = b->planes + 4 * i;
-    if (side(b->ctx, plane, p) != 0) {
-      continue;
-    }
+  for (size_t i = 0; i < through->count && !found && qn_ctx_spend(b->ctx, 1, QN_EFFORT_SIDE); i++) {
+    const qn_num *plane = b->planes + (size_t)4 * through->items[i];
     if (!first) {
       first = plane;
     } else if (!have_two) {
       for (size_t k = 0; k < 3; k++) {
-        cross[k] = cross_component(b->ctx, first, plane, k);
+        cross[k] = qn_polyhedron_cross(b->ctx, first, plane, k);
       }
       have_two = !(qn_num_is_zero(cross[0]) && qn_num_is_zero(cross[1]) && qn_num_is_zero(cross[2]));
     } else {
@@ -409,26 +358,63 @@ static int is_corner(body *b, const qn_num *p) {
   return found;
 }
 
+/* The planes at each point, from the points on each plane. */
+static meeting *planes_at(body *b) {
+  meeting *at = room(b, b->point_count * sizeof *at);
+  size_t total = 0;
+  if (!at) {
+    return NULL;
+  }
+  memset(at, 0, b->point_count * sizeof *at);
+  for (size_t f = 0; f < b->plane_count; f++) {
+    for (size_t i = 0; i < b->on[f].count; i++) {
+      at[b->on[f].items[i]].count++;
+    }
+    total += b->on[f].count;
+  }
+  uint32_t *items = room(b, total * sizeof *items);
+  for (size_t p = 0; items && p < b->point_count; p++) {
+    at[p].items = items;
+    items += at[p].count;
+    at[p].count = 0;
+  }
+  for (size_t f = 0; items && f < b->plane_count; f++) {
+    for (size_t i = 0; i < b->on[f].count; i++) {
+      meeting *m = &at[b->on[f].items[i]];
+      m->items[m->count++] = (uint32_t)f;
+    }
+  }
+  return items ? at : NULL;
+}
+
 static uint32_t finish(body *b) {
   size_t n = b->plane_count, m = 0;
   qn_num *out = room(b, (2 + 4 * n + 3 * b->point_count) * sizeof *out);
-  uint32_t *corners = room(b, (b->point_count + 1) * sizeof *corners);
-  if (!out || !corners) {
+  uint32_t *number = room(b, b->point_count * sizeof *number), *corners = room(b, b->point_count * sizeof *corners);
+  const meeting *at = planes_at(b);
+  if (!out || !number || !corners || !at) {
     return QN_NO_NODE;
   }
   qn_num *vertices = out + 2 + 4 * n;
   for (size_t i = 0; i < b->point_count && !b->ctx->failed; i++) {
-    if (b->used[i] && is_corner(b, b->points + 3 * i)) {
+    number[i] = UINT32_MAX;
+    if (b->used[i] && is_corner(b, &at[i])) {
+      number[i] = (uint32_t)m;
       memcpy(vertices + 3 * m++, b->points + 3 * i, 3 * sizeof *vertices);
     }
   }
   out[0] = qn_num_from_int(b->ctx, (int64_t)n);
   out[1] = qn_num_from_int(b->ctx, (int64_t)m);
   for (size_t f = 0; f < n && !b->ctx->failed; f++) {
+    size_t count = 0;
     memcpy(out + 2 + 4 * f, b->planes + 4 * f, 4 * sizeof *out);
-    size_t count = qn_polyhedron_face(b->ctx, b->planes + 4 * f, vertices, m, corners);
+    for (size_t i = 0; i < b->on[f].count; i++) {
+      corners[count] = number[b->on[f].items[i]];
+      count += corners[count] != UINT32_MAX;
+    }
     if (count >= 3) {
-      plane_of(b->ctx, vertices, corners, count, out + 2 + 4 * f);
+      qn_polyhedron_turn(b->ctx, b->planes + 4 * f, vertices, corners, count);
+      qn_polyhedron_plane(b->ctx, vertices, corners, count, out + 2 + 4 * f);
     }
   }
   return b->ctx->failed ? QN_NO_NODE : qn_call_leaf(b->call, QN_POLYHEDRON, out, 2 + 4 * n + 3 * m);

@@ -173,12 +173,16 @@ static void polyhedron(printer *p, const qn_num *a) {
   say(p, "], faces = [");
   qn_mark mark = qn_arena_mark(&p->ctx.arena);
   uint32_t *corners = qn_arena_take(&p->ctx.arena, (size_t)m * sizeof *corners);
-  if (!corners) {
+  double (*near)[3] = qn_arena_take(&p->ctx.arena, (size_t)m * sizeof *near);
+  if (!corners || !near) {
     p->status = QUOIN_E_MEMORY;
     return;
   }
+  for (int64_t i = 0; i < m; i++) {
+    qn_polyhedron_shadow(3, vertices + 3 * i, near[i]);
+  }
   for (int64_t f = 0; f < n; f++) {
-    size_t count = qn_polyhedron_face(&p->ctx, planes + 4 * f, vertices, (size_t)m, corners);
+    size_t count = qn_polyhedron_face(&p->ctx, planes + 4 * f, vertices, near, (size_t)m, corners);
     say(p, f ? ", [" : "[");
     for (size_t k = 0; k < count; k++) {
       char text[24];
