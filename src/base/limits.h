@@ -36,7 +36,7 @@
 
 /* Effort, as above, of composing one thread's maps exactly: in all, and for each node of the model; of one surface made on demand. A tower of 100,000 scalings by 3 would keep
    numbers of 20 kB at every step. Met: QUOIN_E_LIMIT as above. */
-#define QN_MAX_SCENE_EFFORT (UINT64_C(1) << 32)
+#define QN_MAX_SCENE_EFFORT (UINT64_C(1) << 31)
 #define QN_SCENE_EFFORT_PER_NODE (1 << 15)
 
 /* Vectors within vectors as values, levels; arithmetic on them may recurse so deep. Met: Q0901 "nested too deeply". */

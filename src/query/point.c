@@ -164,7 +164,7 @@ static int exact_sign(quoin_work *work, uint32_t leaf, const qn_half *half, qn_q
   const qn_exact_surface *surface = qn_scene_exact(work->scene, half->surface, &made);
   counts->exact_forms += (uint64_t)(made != 0);
   if (!surface) {
-    work->status = QUOIN_E_MEMORY;
+    work->status = qn_scene_no_exact(work->scene, half->surface);
     return 0;
   }
   make_exact(work, p);

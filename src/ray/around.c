@@ -164,7 +164,7 @@ static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const 
       const qn_exact_surface *surface = qn_scene_exact(scene, surfaces[i], &made);
       counts->exact_forms += (uint64_t)(made != 0);
       if (!surface) {
-        return QUOIN_E_MEMORY;
+        return qn_scene_no_exact(scene, surfaces[i]);
       }
       qn_surface_germ_at(ctx, surface, point, &germs[i]);
     }

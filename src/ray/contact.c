@@ -124,7 +124,7 @@ static int parallel_at_root(qn_scratch *s, uint32_t surface1, uint32_t surface2,
   int made = 0;
   const qn_exact_surface *f = qn_scene_exact(s->scene, surface1, &made), *g = qn_scene_exact(s->scene, surface2, &made);
   if (!f || !g) {
-    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    qn_scratch_fail(s, qn_scene_no_exact(s->scene, f ? surface2 : surface1));
     return 1;
   }
   qn_ctx *ctx = &s->ctx;

@@ -117,7 +117,7 @@ static int germs_at(weaving *w, int t, qn_germ *germs) {
     const qn_exact_surface *form = qn_scene_exact(s->scene, w->surfaces[i], &made);
     s->counts.exact_forms += (uint64_t)made;
     if (!form) {
-      qn_scratch_fail(s, QUOIN_E_MEMORY);
+      qn_scratch_fail(s, qn_scene_no_exact(s->scene, w->surfaces[i]));
       return 0;
     }
     qn_surface_germ_at(ctx, form, &point, &germs[i]);
@@ -296,6 +296,7 @@ static size_t last_change(qn_scratch *s, state *st, const qn_event *group, size_
     for (size_t i = 0; germs && i < w.n; i++) {
       const qn_exact_surface *form = qn_scene_exact(s->scene, w.surfaces[i], NULL);
       if (!form) {
+        qn_scratch_fail(s, qn_scene_no_exact(s->scene, w.surfaces[i]));
         germs = NULL;
         break;
       }

@@ -183,7 +183,7 @@ double qn_place_round(const quoin_scene *scene, qn_scratch *s, qn_line *line, co
   const qn_exact_surface *form = qn_scene_exact(scene, place->surface, &made);
   s->counts.exact_forms += (uint64_t)made;
   if (!form) {
-    s->ctx.failed = QUOIN_E_MEMORY; /* where who asks for a rounding looks: it may not be part of a weave */
+    s->ctx.failed = qn_scene_no_exact(scene, place->surface); /* where who asks for a rounding looks: it may not be part of a weave */
     return place->t;
   }
   double nearest = 0;

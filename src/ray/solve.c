@@ -75,7 +75,7 @@ static const qn_quad *make_quad(qn_scratch *s, uint32_t surface) {
   s->counts.exact_forms += (uint64_t)made;
   qn_quad *quad = qn_arena_take(&s->ctx.arena, sizeof *quad);
   if (!form || !quad) {
-    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    qn_scratch_fail(s, form ? QUOIN_E_MEMORY : qn_scene_no_exact(s->scene, surface));
     return NULL;
   }
   qn_line_make_exact(&s->ctx, s->line);

@@ -166,7 +166,7 @@ static void make_germs(finder *f) {
     const qn_exact_surface *surface = qn_scene_exact(f->s->scene, f->s->scene->halves[x->half].surface, &made);
     f->s->counts.exact_forms += (uint64_t)made;
     if (!surface) {
-      f->ctx->failed = QUOIN_E_MEMORY;
+      f->ctx->failed = qn_scene_no_exact(f->s->scene, f->s->scene->halves[x->half].surface);
       return;
     }
     qn_surface_germ_at(f->ctx, surface, &at, &x->germ);

@@ -166,8 +166,9 @@ static quoin_status survey(quoin_model *model, unsigned threads, const quoin_pro
     return QUOIN_E_MEMORY;
   }
   s->mem = &model->mem;
+  s->kept_maps = qn_kept_maps_new(model, s->mem);
   qn_building b = {.model = model, .scene = s, .mem = &model->mem, .threads = threads, .progress = progress, .whole = 1};
-  quoin_status status = make_leaves(&b);
+  quoin_status status = s->kept_maps ? make_leaves(&b) : QUOIN_E_MEMORY;
   status = status == QUOIN_OK ? qn_identify(&b) : status;
   status = status == QUOIN_OK ? fit_all(&b) : status;
   status = status == QUOIN_OK ? build_hierarchy(&b) : status;
@@ -203,11 +204,12 @@ QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compi
     return QUOIN_E_MEMORY;
   }
   s->mem = &model->mem;
+  s->kept_maps = qn_kept_maps_new(model, s->mem);
   qn_building b = {.model = model, .scene = s, .mem = &model->mem, .threads = qn_thread_count(options->threads), .progress = &options->progress};
   stretch parts[2] = {{&options->progress, 0, 0.5}, {&options->progress, 0.5, 1}};
   quoin_progress first = {report_part, &parts[0]}, second = {report_part, &parts[1]};
-  quoin_status status = QUOIN_OK;
-  if (options->snap) {
+  quoin_status status = s->kept_maps ? QUOIN_OK : QUOIN_E_MEMORY;
+  if (status == QUOIN_OK && options->snap) {
     qn_ctx ctx;
     qn_num limit = QN_NUM_ZERO;
     qn_ctx_init(&ctx, &model->mem);
@@ -248,6 +250,7 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   qn_free(mem, s->halves, s->half_count * sizeof *s->halves);
   qn_free(mem, s->planes, s->plane_count * sizeof *s->planes);
   qn_free(mem, s->quadrics, s->quadric_count * sizeof *s->quadrics);
+  qn_kept_maps_free(s->kept_maps);
   qn_program_free(&s->program, mem);
   qn_normal_free(&s->normal, mem);
   qn_bvh_free(&s->bvh, mem);

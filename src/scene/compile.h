@@ -139,6 +139,7 @@ typedef struct qn_maker {
   qn_local local;
   qn_key_table keys; /* of the places of the batch in work */
   const struct qn_snaps *snaps; /* null: none */
+  qn_kept_maps *kept_maps;
   qn_maps plain;     /* the identity, for leaves of which something was moved; stack null: not begun */
   qn_batch *batch;
 } qn_maker;
@@ -216,8 +217,11 @@ QN_NODISCARD quoin_status qn_find_empty(qn_building *b);
    multiple of the half-space's own, else -1. Zero q everywhere when the context failed. */
 void qn_exact_of(qn_ctx *ctx, const qn_half_form *half, qn_exact_surface *out, int *side);
 void qn_exact_free(qn_mem *mem, qn_exact_surface *exact);
-/* The map from a node's own frame to the world: its ancestors' transforms composed. */
-void qn_path_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num map[12]);
+/* kept_maps.c: the map from a node's own frame to the world, its ancestors' transforms composed. Threads: any. Returns the effort of what was found
+   composed already. */
+uint64_t qn_path_map(qn_ctx *ctx, qn_kept_maps *maps, uint32_t node, qn_num map[12]);
+qn_kept_maps *qn_kept_maps_new(const quoin_model *model, qn_mem *mem); /* null: memory */
+void qn_kept_maps_free(qn_kept_maps *maps);
 
 /* Gives back what was taken from the context since the mark but the map's numbers: after every QN_COMPACT_STEPS maps composed, so that a deep tower of
    transforms does not keep every step. */
@@ -226,6 +230,11 @@ void qn_map_compact(qn_ctx *ctx, qn_mark mark, qn_num map[12]);
 /* The exact half-spaces of a primitive's node under `map`. */
 qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves,
                              size_t *count);
+/* One of them in its place in the world, moved where it is moved. 0: there is none, or the context failed. *spared: see qn_path_map. */
+int qn_node_half(qn_ctx *ctx, qn_kept_maps *maps, const quoin_model *model, const struct qn_snaps *snaps, uint32_t node, uint32_t half, qn_half_form *out,
+                 uint64_t *spared);
+/* A surface's exact form, in ctx, which gets its limits here. 0: the context failed. */
+int qn_scene_make_exact(const quoin_scene *scene, uint32_t surface, qn_ctx *ctx, qn_exact_surface *out);
 /* Makes `form` (copied) the surface's exact form unless it has one; returns the one it has. */
 const qn_exact_surface *qn_scene_publish(const quoin_scene *scene, uint32_t surface, const qn_exact_surface *form, int *made);
 /* A copy in one block of its own. */

@@ -125,55 +125,8 @@ void qn_exact_free(qn_mem *mem, qn_exact_surface *exact) {
 
 /* --- the leaf's place in the world --------------------------------------------------------------------------------- */
 
-static int is_transform(const qn_node *n) {
-  return n->kind >= QN_NODE_TRANSLATE && n->kind <= QN_NODE_MULTMATRIX;
-}
-
-void qn_map_compact(qn_ctx *ctx, qn_mark mark, qn_num map[12]) {
-  int small = 1;
-  for (int i = 0; i < 12; i++) {
-    small &= map[i].kind == QN_NUM_SMALL;
-  }
-  if (small) {
-    qn_arena_release(&ctx->arena, mark);
-    return;
-  }
-  qn_ctx aside;
-  qn_num kept[12];
-  qn_ctx_init(&aside, ctx->arena.mem);
-  for (int i = 0; i < 12; i++) {
-    kept[i] = qn_num_copy(&aside, map[i]);
-  }
-  if (aside.failed == QUOIN_OK) { /* else nothing is gained, and nothing lost */
-    qn_arena_release(&ctx->arena, mark);
-    for (int i = 0; i < 12; i++) {
-      map[i] = qn_num_copy(ctx, kept[i]);
-    }
-  }
-  qn_ctx_free(&aside);
-}
-
-void qn_path_map(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_num map[12]) {
-  qn_mark mark = qn_arena_mark(&ctx->arena);
-  size_t steps = 0;
-  for (int i = 0; i < 12; i++) {
-    map[i] = i % 5 == 0 ? QN_NUM_ONE : QN_NUM_ZERO;
-  }
-  for (uint32_t n = model->nodes[node].parent; n != QN_NO_NODE && ctx->failed == QUOIN_OK; n = model->nodes[n].parent) {
-    if (is_transform(&model->nodes[n])) {
-      qn_num outer[12], composed[12];
-      qn_solid_map(ctx, model, n, outer);
-      qn_map_compose(ctx, outer, map, composed);
-      memcpy(map, composed, sizeof composed);
-      if (++steps % QN_COMPACT_STEPS == 0) {
-        qn_map_compact(ctx, mark, map);
-      }
-    }
-  }
-}
-
-qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves,
-                             size_t *count) {
+/* The half-spaces of a primitive's node before its map. */
+static qn_form_result own_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, qn_half_form **halves, size_t *count) {
   const qn_node *n = &model->nodes[node];
   const qn_num *numbers = model->numbers + n->number0;
   size_t args = n->numbers - (n->flags & QN_NODE_PLACED ? 6 : 0);
@@ -182,22 +135,71 @@ qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t nod
     memcpy(placement.base, numbers + args, sizeof placement.base);
     memcpy(placement.axis, numbers + args + 3, sizeof placement.axis);
   }
-  qn_form_result result = qn_prims[n->payload].form(ctx, numbers, args, n->flags & QN_NODE_PLACED ? &placement : NULL, halves, count);
+  return qn_prims[n->payload].form(ctx, numbers, args, n->flags & QN_NODE_PLACED ? &placement : NULL, halves, count);
+}
+
+qn_form_result qn_node_forms(qn_ctx *ctx, const quoin_model *model, uint32_t node, const qn_num map[12], qn_half_form **halves,
+                             size_t *count) {
+  qn_form_result result = own_forms(ctx, model, node, halves, count);
   if (result == QN_FORM_OK && !qn_map_forms(ctx, map, *halves, *count)) {
     result = QN_FORM_EMPTY;
   }
   return result;
 }
 
+int qn_node_half(qn_ctx *ctx, qn_kept_maps *maps, const quoin_model *model, const qn_snaps *snaps, uint32_t node, uint32_t half, qn_half_form *out,
+                 uint64_t *spared) {
+  const qn_snap *s = NULL;
+  size_t n = qn_snaps_of(snaps, node, &s), i = 0, count;
+  while (i < n && s[i].half != half && s[i].half != QN_SNAP_GONE) {
+    i++;
+  }
+  if (i < n && s[i].half == QN_SNAP_GONE) {
+    return 0;
+  }
+  int moved = i < n;
+  uint32_t from = moved ? s[i].to_node : node, index = moved ? s[i].to_half : half;
+  qn_half_form *halves;
+  qn_num map[12];
+  *spared = qn_path_map(ctx, maps, from, map);
+  if (ctx->failed != QUOIN_OK || own_forms(ctx, model, from, &halves, &count) != QN_FORM_OK || index >= count || !qn_map_forms(ctx, map, halves + index, 1)) {
+    return 0;
+  }
+  *out = halves[index];
+  if (moved && s[i].turn < 0) {
+    qn_half_turn_over(ctx, out);
+  }
+  return ctx->failed == QUOIN_OK;
+}
+
 qn_form_result qn_scene_leaf_forms(const quoin_scene *scene, uint32_t leaf, qn_ctx *ctx, qn_half_form **halves, size_t *count) {
   qn_num map[12];
   uint32_t node = scene->leaves[leaf].node;
-  qn_path_map(ctx, scene->model, node, map);
+  qn_path_map(ctx, scene->kept_maps, node, map);
   qn_form_result result = qn_node_forms(ctx, scene->model, node, map, halves, count);
-  if (result == QN_FORM_OK && !qn_snaps_apply(ctx, scene->model, scene->snaps, node, *halves, *count)) {
+  if (result == QN_FORM_OK && !qn_snaps_apply(ctx, scene->kept_maps, scene->model, scene->snaps, node, *halves, *count)) {
     result = QN_FORM_EMPTY;
   }
   return result;
+}
+
+int qn_scene_make_exact(const quoin_scene *scene, uint32_t surface, qn_ctx *ctx, qn_exact_surface *out) {
+  const qn_surface *s = &scene->surfaces[surface];
+  const qn_leaf *leaf = &scene->leaves[s->leaf];
+  qn_half_form half;
+  uint64_t spared = 0;
+  int side;
+  ctx->max_bits = QN_MAX_SCENE_BITS;
+  ctx->max_effort = QN_MAX_SCENE_EFFORT;
+  if (!qn_node_half(ctx, scene->kept_maps, scene->model, scene->snaps, leaf->node, s->half - leaf->half0, &half, &spared)) {
+    return 0;
+  }
+  qn_exact_of(ctx, &half, out, &side);
+  /* as if no map had been kept: whether a surface is beyond the limit is not to hang on who asked before */
+  if (ctx->failed == QUOIN_OK && spared > ctx->max_effort - ctx->effort) {
+    ctx->failed = QUOIN_E_LIMIT;
+  }
+  return ctx->failed == QUOIN_OK;
 }
 
 const qn_exact_surface *qn_scene_publish(const quoin_scene *scene, uint32_t surface, const qn_exact_surface *form, int *made) {
@@ -222,23 +224,22 @@ const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surfac
     *made = 0;
   }
   const qn_exact_surface *exact = atomic_load_explicit(&s->exact, memory_order_acquire);
-  if (exact || s->kind == QN_SUPER_BODY) {
-    return exact;
-  }
-  qn_ctx ctx;
-  qn_ctx_init(&ctx, scene->mem);
-  ctx.max_bits = QN_MAX_SCENE_BITS;
-  ctx.max_effort = QN_MAX_SCENE_EFFORT;
-  qn_half_form *halves;
-  size_t count;
-  if (qn_scene_leaf_forms(scene, s->leaf, &ctx, &halves, &count) == QN_FORM_OK && ctx.failed == QUOIN_OK) {
-    qn_exact_surface form;
-    int side;
-    qn_exact_of(&ctx, &halves[s->half - scene->leaves[s->leaf].half0], &form, &side);
-    if (ctx.failed == QUOIN_OK) {
+  if (!exact && s->kind != QN_SUPER_BODY) {
+    qn_ctx ctx;
+    qn_exact_surface form = {.beyond = 1};
+    qn_ctx_init(&ctx, scene->mem);
+    if (qn_scene_make_exact(scene, surface, &ctx, &form)) {
       exact = qn_scene_publish(scene, surface, &form, made);
+    } else if (ctx.failed == QUOIN_E_LIMIT) { /* kept too: what took so long once is not tried again */
+      form = (qn_exact_surface){.beyond = 1};
+      exact = qn_scene_publish(scene, surface, &form, NULL);
     }
+    qn_ctx_free(&ctx);
   }
-  qn_ctx_free(&ctx);
-  return exact;
+  return exact && !exact->beyond ? exact : NULL;
+}
+
+quoin_status qn_scene_no_exact(const quoin_scene *scene, uint32_t surface) {
+  const qn_exact_surface *exact = atomic_load_explicit(&scene->surfaces[surface].exact, memory_order_acquire);
+  return exact && exact->beyond ? QUOIN_E_LIMIT : QUOIN_E_MEMORY;
 }

@@ -46,12 +46,12 @@ static quoin_status surface_form(finder *f, uint32_t surface, const qn_exact_sur
   if (*out) {
     return QUOIN_OK;
   }
-  qn_half_form *forms;
-  quoin_status status = qn_forms_other(&f->forms, surf->leaf, &forms);
+  qn_half_form other;
+  quoin_status status = qn_forms_other(&f->forms, surf->leaf, surf->half, &other);
   if (status == QUOIN_OK) {
     qn_exact_surface form;
     int side;
-    qn_exact_of(&f->forms.other, &forms[surf->half - s->leaves[surf->leaf].half0], &form, &side);
+    qn_exact_of(&f->forms.other, &other, &form, &side);
     status = f->forms.other.failed;
     if (status == QUOIN_OK && !(*out = qn_scene_publish(s, surface, &form, NULL))) {
       status = QUOIN_E_MEMORY;
@@ -152,11 +152,11 @@ static quoin_status compare(finder *f, subject *s, uint32_t i, int *same) {
   qn_ctx *ctx = &f->forms.other;
   if (super) {
     const qn_half_form *mine;
-    qn_half_form *theirs;
+    qn_half_form theirs;
     quoin_status status = qn_forms_half(&f->forms, s->leaf, s->half, &mine);
-    status = status == QUOIN_OK ? qn_forms_other(&f->forms, other->leaf, &theirs) : status;
+    status = status == QUOIN_OK ? qn_forms_other(&f->forms, other->leaf, other->half, &theirs) : status;
     if (status == QUOIN_OK) {
-      *same = same_super(ctx, mine, &theirs[other->half - scene->leaves[other->leaf].half0]);
+      *same = same_super(ctx, mine, &theirs);
       status = ctx->failed;
     }
     return status;

@@ -14,13 +14,6 @@ typedef struct qn_forms {
   uint32_t leaf;       /* the leaf whose forms are there, or QN_NO_LEAF */
   qn_half_form *forms;
   qn_ctx other;        /* forms of the surface compared with */
-  qn_ctx maps;         /* maps of nodes with several children, which many leaves ask for */
-  struct qn_known_map *known;
-  size_t known_count, known_capacity;
-  uint32_t *known_slots; /* index + 1, by hash of the node */
-  size_t known_slot_count;
-  uint32_t *path;
-  size_t path_capacity;
 } qn_forms;
 #define QN_NO_LEAF UINT32_MAX
 
@@ -28,8 +21,8 @@ void qn_forms_init(qn_forms *f, const qn_building *b);
 void qn_forms_free(qn_forms *f);
 /* The exact half-space in world coordinates, in f->ctx until another leaf is asked for. */
 QN_NODISCARD quoin_status qn_forms_half(qn_forms *f, uint32_t leaf, uint32_t half, const qn_half_form **form);
-/* The exact half-spaces of a leaf, in f->other (emptied first). */
-QN_NODISCARD quoin_status qn_forms_other(qn_forms *f, uint32_t leaf, qn_half_form **forms);
+/* The same of another leaf, in f->other (emptied first). */
+QN_NODISCARD quoin_status qn_forms_other(qn_forms *f, uint32_t leaf, uint32_t half, qn_half_form *form);
 
 /* --- crowd.c: fingerprints, and which half-spaces have another near theirs ---------------------------------------- */
 

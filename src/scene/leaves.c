@@ -20,6 +20,7 @@ static quoin_status begin(qn_maker *m, qn_building *b) {
   m->model = b->model;
   m->mem = b->mem;
   m->snaps = b->scene->snaps;
+  m->kept_maps = b->scene->kept_maps;
   m->local.node = QN_NO_NODE;
   qn_ctx_init(&m->local.ctx, b->mem);
   m->local.ctx.max_bits = QN_MAX_SCENE_BITS;

@@ -22,9 +22,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many candidates are compared, in doubles and exactly (some 3 us each: concentric spheres all meet here), before the search for all pairs is cut, and how
-   many pairs are kept. A search for a snap is never cut. */
+/* How many candidates are compared, in doubles and exactly (weighed: some 3 us each; concentric spheres all meet here), before the search for all pairs is cut, and
+   how many pairs are kept. A search for a snap is never cut. */
 enum { COMPARED = 1 << 26, COMPARED_EXACTLY = 1 << 19, KEPT = 1 << 18, COMPARED_USERS = 4096 };
+
+static int is_aligned(const qn_exact_surface *plane) {
+  return (qn_int_sign(plane->q[6]) != 0) + (qn_int_sign(plane->q[7]) != 0) + (qn_int_sign(plane->q[8]) != 0) == 1;
+}
+
+/* What a comparison counts: planes at an angle are compared over a region; rounded and other long numbers take longer. */
+static size_t weight_of(const qn_exact_surface *x, const qn_exact_surface *y) {
+  size_t limbs = 0;
+  for (int c = 0; c < 10; c++) {
+    size_t a = (size_t)(qn_int_abs(x->q[c]).n), b = (size_t)(qn_int_abs(y->q[c]).n);
+    limbs = a > limbs ? a : limbs;
+    limbs = b > limbs ? b : limbs;
+  }
+  return (x->plane && y->plane && !(is_aligned(x) && is_aligned(y)) ? 16U : 1U) + (limbs > 1 ? 2 * limbs : 0);
+}
+
 /* --- one surface ----------------------------------------------------------------------------------------------------- */
 
 /* Users of the two whose boxes come close; where there are very many, their hulls answer. */
@@ -96,13 +112,16 @@ static quoin_status compare(qn_near_finder *f, uint32_t i, int *stands) {
     if ((k && other == f->found[k - 1]) || (f->want == QN_NEAR_ALL && !users_close(f, i, other, leaf))) {
       continue;
     }
-    if (f->want == QN_NEAR_ALL && f->compared_exactly++ >= COMPARED_EXACTLY) {
-      f->out->cut = 1;
-      break;
-    }
     const qn_exact_surface *x = qn_scene_exact(f->scene, i, NULL), *y = qn_scene_exact(f->scene, other, NULL);
     if (!x || !y) {
-      return QUOIN_E_MEMORY;
+      return qn_scene_no_exact(f->scene, x ? other : i);
+    }
+    if (f->want == QN_NEAR_ALL) {
+      if (f->compared_exactly >= COMPARED_EXACTLY) {
+        f->out->cut = 1;
+        break;
+      }
+      f->compared_exactly += weight_of(x, y);
     }
     qn_mark mark = qn_arena_mark(&f->ctx.arena);
     qn_num gap;

@@ -73,7 +73,7 @@ static quoin_status put_surface(writer *w, const quoin_scene *s, uint32_t i) {
   } else {
     const qn_exact_surface *e = qn_scene_exact(s, i, NULL);
     if (!e) {
-      return QUOIN_E_MEMORY;
+      return qn_scene_no_exact(s, i);
     }
     qn_ctx ctx;
     qn_ctx_init(&ctx, s->mem);

@@ -157,21 +157,17 @@ const qn_rounding *qn_rounding_make(const quoin_scene *scene, uint32_t surface, 
   ctx.max_bits = QN_MAX_SCENE_BITS;
   qn_rounding *mine = qn_alloc_zeroed(scene->mem, sizeof *mine), *there = NULL;
   const qn_exact_surface *form = atomic_load_explicit(&s->exact, memory_order_acquire);
-  qn_exact_surface own;
+  qn_exact_surface own = {.beyond = 1};
   if (mine && !form) {
-    qn_half_form *halves;
-    size_t count;
-    if (qn_scene_leaf_forms(scene, s->leaf, &ctx, &halves, &count) == QN_FORM_OK && ctx.failed == QUOIN_OK) {
-      int side;
-      qn_exact_of(&ctx, &halves[s->half - scene->leaves[s->leaf].half0], &own, &side);
+    if (qn_scene_make_exact(scene, surface, &ctx, &own)) {
       form = &own;
       ++*made;
     }
   }
-  if (mine && form && ctx.failed == QUOIN_OK) {
+  if (mine && form && !form->beyond && ctx.failed == QUOIN_OK) {
     fill(&ctx, form, scene->leaves[s->leaf].pivot, mine);
   }
-  if (mine && (!form || ctx.failed != QUOIN_OK)) {
+  if (mine && (!form || form->beyond || ctx.failed != QUOIN_OK)) {
     mine->kind = QN_ROUNDING_NONE;
   }
   int refused = ctx.failed == QUOIN_E_MEMORY;

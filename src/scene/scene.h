@@ -45,7 +45,10 @@ typedef struct qn_leaf {
 typedef struct qn_exact_surface {
   qn_int q[10];
   uint8_t plane, rounded;
+  uint8_t beyond; /* it is none: its numbers pass a limit */
 } qn_exact_surface;
+
+typedef struct qn_kept_maps qn_kept_maps; /* scene/compile.h */
 
 typedef struct qn_surface {
   uint32_t leaf, half;            /* a user: halves[half] of leaves[leaf] */
@@ -79,13 +82,16 @@ struct quoin_scene {
   double min[3], max[3];          /* of the solid */
   size_t bytes;                   /* what the arrays above take */
   size_t dropped;                 /* leaves of the model that are none of these */
+  qn_kept_maps *kept_maps;        /* exact maps of nodes, made as they are asked for */
   struct qn_snaps *snaps;         /* null: nothing was snapped */
   quoin_near_list *snapped;       /* what is told of it; null: not asked for */
 };
 
 /* The exact form of a surface, made on first use; then *made (may be null) is set to 1, else to 0. Null when memory is refused, or its numbers pass
-   QN_MAX_SCENE_BITS, and for superquadrics, which have none. Threads: any. */
+   QN_MAX_SCENE_BITS or their making QN_MAX_SCENE_EFFORT, and for superquadrics, which have none. Threads: any. */
 const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surface, int *made);
+/* Why there was none: QUOIN_E_LIMIT or QUOIN_E_MEMORY. */
+quoin_status qn_scene_no_exact(const quoin_scene *scene, uint32_t surface);
 
 /* The exact half-spaces of a leaf in world coordinates (forms under the composed exact map), into ctx: for superquadrics
    and for tests. */

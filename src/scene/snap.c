@@ -27,7 +27,7 @@ size_t qn_snaps_of(const qn_snaps *snaps, uint32_t node, const qn_snap **first) 
   return n;
 }
 
-static void turn_over(qn_ctx *ctx, qn_half_form *h) {
+void qn_half_turn_over(qn_ctx *ctx, qn_half_form *h) {
   if (h->kind == QN_PLANE) {
     for (int j = 0; j < 4; j++) {
       h->row[0][j] = qn_num_neg(ctx, h->row[0][j]);
@@ -41,7 +41,7 @@ static void turn_over(qn_ctx *ctx, qn_half_form *h) {
   h->k = qn_num_neg(ctx, h->k);
 }
 
-int qn_snaps_apply(qn_ctx *ctx, const quoin_model *model, const qn_snaps *snaps, uint32_t node, qn_half_form *halves, size_t count) {
+int qn_snaps_apply(qn_ctx *ctx, qn_kept_maps *maps, const quoin_model *model, const qn_snaps *snaps, uint32_t node, qn_half_form *halves, size_t count) {
   const qn_snap *s = NULL;
   size_t n = qn_snaps_of(snaps, node, &s), made = 0;
   qn_half_form *forms = NULL;
@@ -51,7 +51,7 @@ int qn_snaps_apply(qn_ctx *ctx, const quoin_model *model, const qn_snaps *snaps,
     }
     if (i == 0 || s[i].to_node != s[i - 1].to_node) {
       qn_num map[12];
-      qn_path_map(ctx, model, s[i].to_node, map);
+      qn_path_map(ctx, maps, s[i].to_node, map);
       if (qn_node_forms(ctx, model, s[i].to_node, map, &forms, &made) != QN_FORM_OK) {
         return 0; /* memory */
       }
@@ -61,7 +61,7 @@ int qn_snaps_apply(qn_ctx *ctx, const quoin_model *model, const qn_snaps *snaps,
       halves[s[i].half] = forms[s[i].to_half];
       halves[s[i].half].role = role;
       if (s[i].turn < 0) {
-        turn_over(ctx, &halves[s[i].half]);
+        qn_half_turn_over(ctx, &halves[s[i].half]);
       }
     }
   }

@@ -21,7 +21,9 @@ typedef struct qn_snaps {
 /* Those of a node; snaps may be null. */
 size_t qn_snaps_of(const qn_snaps *snaps, uint32_t node, const qn_snap **first);
 /* Replaces what is moved of the node's half-spaces in world coordinates. 0: the leaf is nothing. ctx->failed is to be looked at. */
-int qn_snaps_apply(qn_ctx *ctx, const quoin_model *model, const qn_snaps *snaps, uint32_t node, qn_half_form *halves, size_t count);
+int qn_snaps_apply(qn_ctx *ctx, qn_kept_maps *maps, const quoin_model *model, const qn_snaps *snaps, uint32_t node, qn_half_form *halves, size_t count);
+
+void qn_half_turn_over(qn_ctx *ctx, qn_half_form *half); /* its complement */
 
 /* What is to be moved in a surveyed scene; *list says it to the user. */
 QN_NODISCARD quoin_status qn_snaps_find(const quoin_scene *survey, qn_num limit, qn_snaps *out, quoin_near_list **list);

@@ -349,7 +349,7 @@ quoin_status qn_leaf_snapped(qn_maker *m, uint32_t node, qn_leaf *leaf, qn_form_
     memcpy(old, m->local.halves, count * sizeof *old);
     int there = qn_map_forms(ctx, map, old, count);
     memcpy(now, old, count * sizeof *now);
-    there = there && qn_snaps_apply(ctx, m->model, m->snaps, node, now, count);
+    there = there && qn_snaps_apply(ctx, m->kept_maps, m->model, m->snaps, node, now, count);
     if (there) {
       leaf->bounded = (uint8_t)qn_snap_box(ctx, old, now, count, &was, &box);
       memcpy(leaf->min, box.min, sizeof leaf->min);

@@ -66,6 +66,37 @@ class Hostile(Case):
     def test_concentric_spheres(self):
         self.ask("".join(f"difference() {{ sphere({i + 1});" for i in range(3000)) + "}" * 3000, [0])
 
+    def test_leaves_under_one_tower(self):
+        turned = "rotate(a = 30, v = [1, 2, 3]) "
+        inside = "".join(f"sphere(r = {i + 1});" for i in range(4000))
+        self.ask(turned * 2000 + "{" + inside + "}", [0])
+        boxes = "".join(f"translate([{2 * i}, 0, 0]) cube(1);" for i in range(4000))
+        self.ask("multmatrix([[1, 0.1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1]]) " * 2000 + "{" + boxes + "}", [0])
+        self.ask("union() { sphere(1);" * 8000 + "}" * 8000, [0], options=("--max-memory", "1G", "--threads", "1", "--near", "1"))
+
+    # --- polyhedra
+
+    @staticmethod
+    def prism(n, curve="{0}"):
+        """Over n points of a parabola: two faces of n corners, and n of four."""
+        points = ",".join(f"[{i},{curve.format(i * i)},{z}]" for z in (0, 1) for i in range(n))
+        sides = ",".join(f"[{i},{n + i},{n + (i + 1) % n},{(i + 1) % n}]" for i in range(n))
+        return f"polyhedron(points=[{points}],faces=[{list(range(n))},{list(range(2 * n - 1, n - 1, -1))},{sides}]);"
+
+    def test_faces_of_thousands_of_corners(self):
+        self.ask(self.prism(4000), [0])
+        self.ask(self.prism(1000) * 2, [0])
+        self.ask(self.prism(1000, "{0}e-30"), [0])
+        n = 2000
+        points = ",".join(f"[{i},{i * i},0]" for i in range(n)) + f",[{n // 2},{n * n // 2},1]"
+        self.ask(f"polyhedron(points=[{points}],faces=[{list(range(n))}," + ",".join(f"[{(i + 1) % n},{i},{n}]" for i in range(n)) + "]);", [0])
+
+    def test_polyhedra_again_and_again(self):
+        points = "p = [" + ",".join(f"[{i},{i * i},{z}]" for z in (0, 1) for i in range(2000)) + "];"
+        faces = "f = [" + str(list(range(2000))) + "];"
+        self.ask(points + faces + "polyhedron(p, f);" * 2000, [3])
+        self.ask(points + "polyhedron(p, []);" * 20000, [3, 0])
+
     # --- numbers
 
     def test_huge_exponents(self):
