@@ -50,6 +50,7 @@ static void meet_prepare(const walk *w, uint32_t leaf, meet_constants *k) {
   }
 }
 
+#if QN_LANES_NOW > 1
 static void piece_prepare(const walk *w, const qn_piece_head *head, piece_constants *k) {
   switch ((qn_piece_kind)head->kind) {
   case QN_PIECE_SPHERE: sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k->sphere); break;
@@ -68,6 +69,8 @@ static void piece_prepare(const walk *w, const qn_piece_head *head, piece_consta
   case QN_PIECE_HARD: break;
   }
 }
+
+#endif
 
 QN_INLINE void from_pivot(const qn_packet *p, int at, const double pivot[3], vd y[3], vd d[3]) {
   for (int i = 0; i < 3; i++) {
@@ -144,6 +147,7 @@ static void stretch_meet(walk *w, int g, stretch *s, const stretch *o) {
   s->hit = before;
 }
 
+#if QN_LANES_NOW > 1 /* one ray has its own: wide/one_body.h */
 typedef struct ends { _Alignas(64) double a[QN_LANES_NOW], b[QN_LANES_NOW], pa[QN_LANES_NOW], pb[QN_LANES_NOW]; } ends;
 
 /* Solves a term's positive part for the lanes of `mask`; returns those that meet it. */
@@ -186,5 +190,6 @@ static uint64_t term_solve(walk *w, const qn_nterm *t, uint64_t mask, ends *out)
   }
   return hits & ~w->unsure;
 }
+#endif
 
 #endif

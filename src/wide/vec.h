@@ -243,6 +243,7 @@ QN_INLINE void fstore(float *p, vf8 a) { _mm256_store_ps(p, a); }
 QN_INLINE vf8 fadd(vf8 a, vf8 b) { return _mm256_add_ps(a, b); }
 QN_INLINE vf8 fsub(vf8 a, vf8 b) { return _mm256_sub_ps(a, b); }
 QN_INLINE vf8 fmul(vf8 a, vf8 b) { return _mm256_mul_ps(a, b); }
+QN_INLINE vf8 ffma(vf8 a, vf8 b, vf8 c) { return _mm256_fmadd_ps(a, b, c); }
 QN_INLINE vf8 fmin8(vf8 a, vf8 b) { return _mm256_min_ps(a, b); }
 QN_INLINE vf8 fmax8(vf8 a, vf8 b) { return _mm256_max_ps(a, b); }
 QN_INLINE unsigned fle(vf8 a, vf8 b) { return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
@@ -254,6 +255,7 @@ QN_INLINE void fstore(float *p, vf8 v) { _mm_store_ps(p, v.a), _mm_store_ps(p + 
 QN_INLINE vf8 fadd(vf8 x, vf8 y) { return (vf8){_mm_add_ps(x.a, y.a), _mm_add_ps(x.b, y.b)}; }
 QN_INLINE vf8 fsub(vf8 x, vf8 y) { return (vf8){_mm_sub_ps(x.a, y.a), _mm_sub_ps(x.b, y.b)}; }
 QN_INLINE vf8 fmul(vf8 x, vf8 y) { return (vf8){_mm_mul_ps(x.a, y.a), _mm_mul_ps(x.b, y.b)}; }
+QN_INLINE vf8 ffma(vf8 x, vf8 y, vf8 z) { return fadd(fmul(x, y), z); } /* rounds twice */
 QN_INLINE vf8 fmin8(vf8 x, vf8 y) { return (vf8){_mm_min_ps(x.a, y.a), _mm_min_ps(x.b, y.b)}; }
 QN_INLINE vf8 fmax8(vf8 x, vf8 y) { return (vf8){_mm_max_ps(x.a, y.a), _mm_max_ps(x.b, y.b)}; }
 QN_INLINE unsigned fle(vf8 x, vf8 y) {

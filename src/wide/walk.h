@@ -20,12 +20,12 @@ enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK =
 enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
 
 #if QN_LANES_NOW == 1
-/* A single ray against boxes: which side of a box is met first along each axis, from where, and 1/d. */
+/* A single ray against boxes: which side of a box is met first along each axis, and what makes a plane's place of it: plane inv + near (or far). */
 typedef struct beam {
-  int ready; /* 0: some 1/d is no float */
+  int ready; /* 0: some number is no usual float */
   unsigned flat; /* axes along which the ray does not go */
-  unsigned near[3], far[3]; /* places in a node */
-  float near_o[3], far_o[3], inv[3];
+  unsigned near_side[3], far_side[3]; /* places in a node */
+  float inv[3], near[3], far[3], o_min[3], o_max[3];
 } beam;
 #endif
 
@@ -135,39 +135,47 @@ enum { MAX_AT = offsetof(qn_bvh_node, max) / sizeof(float) };
 
 static void beam_make(walk *w) {
   const qn_packet *p = w->f.p;
-  w->beam.ready = 1, w->beam.flat = 0;
+  beam *b = &w->beam;
+  b->ready = 1, b->flat = 0;
   for (int i = 0; i < 3; i++) {
     const int up_ = p->axis[i] != AXIS_DOWN;
-    w->beam.ready &= p->axis[i] != AXIS_MIXED;
-    w->beam.near[i] = (up_ ? 0 : MAX_AT) + 8 * (unsigned)i, w->beam.far[i] = (up_ ? MAX_AT : 0) + 8 * (unsigned)i;
-    w->beam.near_o[i] = up_ ? w->all_omax[i] : w->all_omin[i], w->beam.far_o[i] = up_ ? w->all_omin[i] : w->all_omax[i];
-    w->beam.inv[i] = (float)p->inv[i][0];
-    w->beam.flat |= (unsigned)(p->axis[i] == AXIS_FLAT) << i;
+    b->near_side[i] = (up_ ? 0 : MAX_AT) + 8 * (unsigned)i, b->far_side[i] = (up_ ? MAX_AT : 0) + 8 * (unsigned)i;
+    b->o_min[i] = w->all_omin[i], b->o_max[i] = w->all_omax[i];
+    if (p->axis[i] == AXIS_FLAT) {
+      b->flat |= 1u << i;
+      b->inv[i] = 0, b->near[i] = -FLT_MAX, b->far[i] = FLT_MAX;
+      continue;
+    }
+    const double inv = p->inv[i][0], near = (up_ ? p->high[i] : p->low[i]) * inv, far = (up_ ? p->low[i] : p->high[i]) * inv;
+    const double wide = QN_WIDE_FLOAT * most(fabs(near), fabs(far)) + QN_FLOAT_TINY;
+    b->ready &= p->axis[i] != AXIS_MIXED && wide <= QN_WIDE_LARGEST * QN_WIDE_FLOAT;
+    b->inv[i] = (float)inv;
+    b->near[i] = (float)(-near - wide), b->far[i] = (float)(wide - far);
   }
 }
 
-/* Each product is within 3 2^-24 of itself (and an underflow) of where its plane is met from the origin's enclosure; so are the largest and the least. */
+/* Each place is within 2^-22 of itself of one that is not on the wrong side; so are the largest and the least, and the comparison allows for both (docs/bounds.md). `near` may be
+   above where a box is met by as much: it is compared with a widened end. */
 QN_INLINE unsigned beam_meets(const beam *b, const qn_bvh_node *n, float start, float end, float near[8]) {
   const float *planes = (const float *)(const void *)n; /* min, and max from MAX_AT */
-  vf8 first = fset(-INFINITY), last = fset(INFINITY), zero = fset(0), widen = fset(QN_WIDE_FLOAT), tiny = fset(QN_FLOAT_TINY);
+  vf8 first = fset(start), last = fset(end);
   unsigned meets = 0xff;
-  for (int i = 0; i < 3; i++) {
-    const vf8 near_plane = fload(planes + b->near[i]), far_plane = fload(planes + b->far[i]);
+  for (int i = 0; i < 3; i++) { /* where the ray does not go that way, an infinite plane gives no number: then the second operand is taken */
+    const vf8 inv = fset(b->inv[i]);
+    first = fmax8(ffma(fload(planes + b->near_side[i]), inv, fset(b->near[i])), first);
+    last = fmin8(ffma(fload(planes + b->far_side[i]), inv, fset(b->far[i])), last);
+  }
+  for (int i = 0; QN_UNLIKELY(b->flat) && i < 3; i++) {
     if (b->flat >> i & 1) {
-      meets &= fle(near_plane, fset(b->near_o[i])) & fle(fset(b->far_o[i]), far_plane);
-    } else {
-      const vf8 inv = fset(b->inv[i]);
-      first = fmax8(first, fmul(fsub(near_plane, fset(b->near_o[i])), inv));
-      last = fmin8(last, fmul(fsub(far_plane, fset(b->far_o[i])), inv));
+      meets &= fle(fload(n->min[i]), fset(b->o_max[i])) & fle(fset(b->o_min[i]), fload(n->max[i]));
     }
   }
-  first = fmin8(first, fset(FLT_MAX)), last = fmax8(last, fset(-FLT_MAX)); /* what has overflowed may be less */
-  first = fsub(first, fadd(fmul(fmax8(first, fsub(zero, first)), widen), tiny));
-  last = fadd(last, fadd(fmul(fmax8(last, fsub(zero, last)), widen), tiny));
-  first = fmax8(fset(start), first), last = fmin8(fset(end), last);
+  last = fmax8(last, fset(-FLT_MAX)); /* what has overflowed may be more; and an empty slot's box, which is inverted, is met nowhere */
   fstore(near, first);
-  return meets & fle(first, last); /* an empty slot's box is inverted */
+  return meets & fle(first, ffma(fmax8(last, fsub(fset(0), last)), fset(QN_WIDE_FLOAT), last));
 }
+/* What `near` is compared with so that no box is passed that is met by then. */
+QN_INLINE float beam_end(float end) { return end + fabsf(end) * (float)QN_WIDE_FLOAT; }
 #endif
 
 QN_INLINE unsigned node_meets(const walk *w, const qn_bvh_node *n, float start, float end, float near[8]) {
