@@ -319,10 +319,7 @@ static int union_walk(walk *w, const qn_union *un, const place *from, place *bes
       const unsigned meets = node_meets(w, n, start, last, near);
       if (meets & (meets - 1)) {
         top = push_children(w, n, meets, near, stack, top);
-        at = stack[--top].node;
-        continue;
-      }
-      if (meets) {
+      } else if (meets) {
         at = n->child[qn_trailing_zeros(meets)];
         continue;
       }
@@ -339,6 +336,7 @@ static int union_walk(walk *w, const qn_union *un, const place *from, place *bes
       if (!top) {
         return found;
       }
+      /* cppcheck-suppress uninitvar ; what is below top has been pushed */
     } while (stack[--top].near > last);
     at = stack[top].node;
   }
