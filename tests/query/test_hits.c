@@ -83,6 +83,34 @@ static void rounds(void **state) {
   ask_close(&a);
 }
 
+/* (u, v) and normal of a sphere, from its piece where it is only shifted, are those of the ellipsoid of equal axes, which is described from its leaf. */
+static void balls(void **state) {
+  (void)state;
+  static const char *const ways[][2] = {
+    {"translate([0.1,0.2,0.3]) sphere(1.1);", "translate([0.1,0.2,0.3]) ellipsoid(r=[1.1,1.1,1.1]);"},
+    {"sphere(r=1.1, base=[0.1,0.2,0.3], axis=[1,0,0]);", "ellipsoid(r=[1.1,1.1,1.1], base=[0.1,0.2,0.3], axis=[1,0,0]);"},
+    {"sphere(r=1.1, base=[0.1,0.2,0.3], axis=[0,0,-1]);", "ellipsoid(r=[1.1,1.1,1.1], base=[0.1,0.2,0.3], axis=[0,0,-1]);"},
+    {"rotate([90,0,0]) translate([0.1,0.2,0.3]) sphere(1.1);", "rotate([90,0,0]) translate([0.1,0.2,0.3]) ellipsoid(r=[1.1,1.1,1.1]);"},
+    {"scale(2) sphere(0.7);", "scale(2) ellipsoid(r=[0.7,0.7,0.7]);"},
+    {"difference() { cube(4, center=true); sphere(1.1); }", "difference() { cube(4, center=true); ellipsoid(r=[1.1,1.1,1.1]); }"},
+  };
+  for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+    ask a[2];
+    ask_open(&a[0], ways[w][0]), ask_open(&a[1], ways[w][1]);
+    for (int k = 0; k < 24; k++) {
+      const double x = 0.3 * cos(k), y = 0.3 * sin(k), z = 0.02 * (k - 12), dx = sin(3 * k), dy = cos(5 * k), dz = sin(7 * k + 1);
+      const quoin_hit p = shoot(&a[0], x, y, z, dx, dy, dz, 0, 99), q = shoot(&a[1], x, y, z, dx, dy, dz, 0, 99);
+      assert_true(p.found && q.found && p.leaving == q.leaving && p.role == q.role && p.part == q.part);
+      const double turn = fabs(p.uv[0] - q.uv[0]);
+      assert_true(fmin(turn, 1 - turn) < 1e-12 && fabs(p.uv[1] - q.uv[1]) < 1e-12);
+      for (int j = 0; j < 3; j++) {
+        assert_true(fabs(p.normal[j] - q.normal[j]) < 1e-12);
+      }
+    }
+    ask_close(&a[0]), ask_close(&a[1]);
+  }
+}
+
 /* On random solids: the hit is the first end of the intervals, its normal points out, its (u, v) is in the unit square. */
 static void random_hits(void **state) {
   (void)state;
@@ -179,7 +207,7 @@ static void extremes(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(faces), cmocka_unit_test(rounds), cmocka_unit_test(random_hits), cmocka_unit_test(arguments), cmocka_unit_test(extremes),
+    cmocka_unit_test(faces), cmocka_unit_test(rounds), cmocka_unit_test(balls), cmocka_unit_test(random_hits), cmocka_unit_test(arguments), cmocka_unit_test(extremes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
