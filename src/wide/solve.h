@@ -120,10 +120,10 @@ QN_INLINE void plane_prepare(const packet_facts *f, const double pivot[3], const
 
 /* Of the lanes that do not cross the plane, or only so slantwise that it is not solved: those that surely do not meet it within reach are in
    or out by num's sign, the others unsure. A slope is exactly 0 where each of its terms is: then there is no end to the reach. */
-QN_INLINE void plane_beside(const packet_facts *f, const plane_constants *k, const vd d[3], vd num, vd den, vm crosses, stretch *s) {
+QN_INLINE void plane_beside(const packet_facts *f, const vd n[3], vd en, vd eden, const vd d[3], vd num, vd den, vm crosses, stretch *s) {
   const vd zero = vset(0);
-  vd terms = vadd(vadd(vabs(vmul(k->n[0], d[0])), vabs(vmul(k->n[1], d[1]))), vabs(vmul(k->n[2], d[2])));
-  vd drift = vadd(k->en, vpick(vlt(zero, terms), vmul(vadd(vabs(den), k->eden), vset(f->reach)), zero));
+  vd terms = vadd(vadd(vabs(vmul(n[0], d[0])), vabs(vmul(n[1], d[1]))), vabs(vmul(n[2], d[2])));
+  vd drift = vadd(en, vpick(vlt(zero, terms), vmul(vadd(vabs(den), eden), vset(f->reach)), zero));
   vm in = vlt(num, vsub(zero, drift)), out = vandnot(vlt(drift, num), crosses);
   s->unsure = doubt(vandnot(vor(s->unsure, vandnot(vandnot(s->hit, crosses), in)), out));
   s->hit = vandnot(s->hit, out);
@@ -136,7 +136,7 @@ QN_INLINE void plane_meet(const packet_facts *f, const plane_constants *k, const
   vd den = vfma(k->n[0], d[0], vfma(k->n[1], d[1], vmul(k->n[2], d[2])));
   vm crosses = vlt(k->steep, vabs(den));
   if (vbits(crosses) != QN_ALL_BITS) {
-    plane_beside(f, k, d, num, den, crosses, s);
+    plane_beside(f, k->n, k->en, k->eden, d, num, den, crosses, s);
   }
   vd inv = vdiv(one, vpick(crosses, den, one));
   vd t = vsub(zero, vmul(num, inv));
@@ -149,6 +149,49 @@ QN_INLINE void plane_meet(const packet_facts *f, const plane_constants *k, const
   vm later = vlt(s->a, ta), sooner = vlt(tb, s->b);
   s->a = vpick(later, ta, s->a), s->pa = vpick(later, k->px, s->pa);
   s->b = vpick(sooner, tb, s->b), s->pb = vpick(sooner, k->px, s->pb);
+}
+
+/* Two planes that face apart, n . (x - pivot) + d0 <= 0 and -n . (x - pivot) + d1 <= 0, as the first that a whole line is met with: one division for both, and nothing that
+   their places could be too near to. The numerators take one rounding more than a plane's. */
+typedef struct slab_constants { vd n[3], d0, d1, en, eden, steep, p0, p1; } slab_constants;
+
+QN_INLINE void slab_prepare(const packet_facts *f, const double pivot[3], const double n[3], double d0, double d1, uint32_t surface0, uint32_t surface1, uint32_t leaf,
+                            slab_constants *k) {
+  double en = most(fabs(d0), fabs(d1)), eden = 0;
+  for (int i = 0; i < 3; i++) {
+    en += fabs(n[i]) * farthest(f, i, pivot[i]);
+    eden += fabs(n[i]) * f->p->dabs[i];
+    k->n[i] = vset(n[i]);
+  }
+  k->d0 = vset(d0), k->d1 = vset(d1);
+  k->en = bound(QN_WIDE_ROUND * QN_U * en + QN_WIDE_TINY);
+  k->eden = bound(QN_WIDE_ROUND * QN_U * eden);
+  k->steep = bound(QN_WIDE_STEEP * eden);
+  k->p0 = vset(payload_bits(payload_of(surface0, leaf, 0))), k->p1 = vset(payload_bits(payload_of(surface1, leaf, 0)));
+}
+
+/* s: a whole line. */
+QN_INLINE void slab_meet(const packet_facts *f, const slab_constants *k, const vd y[3], const vd d[3], stretch *s) {
+  const vd zero = vset(0), one = vset(1);
+  vd place = vfma(k->n[0], y[0], vfma(k->n[1], y[1], vmul(k->n[2], y[2])));
+  vd den = vfma(k->n[0], d[0], vfma(k->n[1], d[1], vmul(k->n[2], d[2])));
+  vd num0 = vadd(place, k->d0), num1 = vsub(k->d1, place);
+  vm crosses = vlt(k->steep, vabs(den));
+  const int all = vbits(crosses) == QN_ALL_BITS;
+  vd inv = vdiv(one, all ? den : vpick(crosses, den, one));
+  vd t0 = vsub(zero, vmul(num0, inv)), t1 = vmul(num1, inv);
+  vm falls = vlt(den, zero);
+  s->a = vpick(falls, t0, t1), s->b = vpick(falls, t1, t0);
+  s->pa = vpick(falls, k->p0, k->p1), s->pb = vpick(falls, k->p1, k->p0);
+  s->error = CHECKED ? vmul(vfma(vmax(vabs(t0), vabs(t1)), k->eden, k->en), vmul(vabs(inv), vset(QN_WIDE_SLACK))) : zero;
+  if (!all) {
+    const vd nobody = vset(payload_bits(QN_NOBODY));
+    s->a = vpick(crosses, s->a, vset(-QN_FAR)), s->b = vpick(crosses, s->b, vset(QN_FAR));
+    s->pa = vpick(crosses, s->pa, nobody), s->pb = vpick(crosses, s->pb, nobody);
+    s->error = vpick(crosses, s->error, zero);
+    plane_beside(f, k->n, k->en, k->eden, d, num0, den, crosses, s);
+    plane_beside(f, k->n, k->en, k->eden, d, num1, vsub(zero, den), crosses, s);
+  }
 }
 
 /* After all parts are met: a stretch needs positive length, surely. What a part was unsure of does not matter when the others leave nothing:

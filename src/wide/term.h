@@ -14,7 +14,7 @@ typedef struct meet_constants {
 typedef union piece_constants {
   sphere_constants sphere;
   box_constants box;
-  struct { plane_constants cap[2]; body_constants body; } round;
+  struct { int slab; slab_constants caps; plane_constants cap[2]; body_constants body; } round; /* slab: `caps` stands for both of cap[]; of one lane that gains nothing */
   meet_constants meet;
 } piece_constants;
 
@@ -57,7 +57,11 @@ static void piece_prepare(const walk *w, const qn_piece_head *head, piece_consta
   case QN_PIECE_BOX: box_prepare(&w->f, (const qn_piece_box *)(const void *)head, &k->box); break;
   case QN_PIECE_ROUND: {
     const qn_piece_round *r = (const qn_piece_round *)(const void *)head;
-    for (int i = 0; i < 2; i++) {
+    k->round.slab = QN_LANES_NOW > 1 && r->surface[1] != UINT32_MAX && r->surface[2] != UINT32_MAX && r->cap[0][0] == -r->cap[1][0] && r->cap[0][1] == -r->cap[1][1] && r->cap[0][2] == -r->cap[1][2];
+    if (k->round.slab) {
+      slab_prepare(&w->f, r->pivot, r->cap[0], r->cap[0][3], r->cap[1][3], r->surface[1], r->surface[2], head->leaf, &k->round.caps);
+    }
+    for (int i = 0; i < 2 && !k->round.slab; i++) {
       if (r->surface[1 + i] != UINT32_MAX) {
         plane_prepare(&w->f, r->pivot, r->cap[i], r->cap[i][3], r->surface[1 + i], head->leaf, &k->round.cap[i]);
       }
@@ -107,7 +111,10 @@ QN_INLINE stretch piece_solve(const walk *w, const qn_piece_head *head, const pi
     stretch s = whole_line();
     vd y[3], d[3];
     from_pivot(w->f.p, g * QN_W, r->pivot, y, d);
-    for (int i = 0; i < 2; i++) {
+    if (k->round.slab) {
+      slab_meet(&w->f, &k->round.caps, y, d, &s);
+    }
+    for (int i = 0; i < 2 && !k->round.slab; i++) {
       if (r->surface[1 + i] != UINT32_MAX) {
         plane_meet(&w->f, &k->round.cap[i], y, d, &s);
       }

@@ -459,6 +459,7 @@ static void exact_plane(int n, const double row[4], uint32_t surface) {
 static void bodies_and_caps(void **state) {
   (void)state;
   census c = {0};
+  size_t slabs = 0;
   for (int round = 0; round < 1500; round++) {
     piece p;
     make_piece(&p, one_in(4) ? ldexp(1, below(50)) : 1);
@@ -467,8 +468,14 @@ static void bodies_and_caps(void **state) {
       continue;
     }
     plane_constants caps[2];
+    slab_constants both;
     body_constants body;
+    const int slab = p.caps == 2 && one_in(2) && p.cap[0][0] == -p.cap[1][0] && p.cap[0][1] == -p.cap[1][1] && p.cap[0][2] == -p.cap[1][2];
     half_count = 0;
+    if (slab) {
+      slab_prepare(&state_of_walk.f, p.pivot, p.cap[0], p.cap[0][3], p.cap[1][3], 10, 11, 3, &both);
+      slabs++;
+    }
     for (int n = 0; n < p.caps; n++) {
       plane_prepare(&state_of_walk.f, p.pivot, p.cap[n], p.cap[n][3], 10 + (uint32_t)n, 3, &caps[n]);
       exact_plane(half_count++, p.cap[n], 10 + (uint32_t)n);
@@ -492,7 +499,10 @@ static void bodies_and_caps(void **state) {
       for (int i = 0; i < 3; i++) {
         y[i] = vsub(vload(packet.o[i] + g * QN_W), vset(p.pivot[i])), d[i] = vload(packet.d[i] + g * QN_W);
       }
-      for (int n = 0; n < p.caps; n++) {
+      if (slab) {
+        slab_meet(&state_of_walk.f, &both, y, d, &s);
+      }
+      for (int n = 0; n < p.caps && !slab; n++) {
         plane_meet(&state_of_walk.f, &caps[n], y, d, &s);
       }
       if (p.bodies) {
@@ -503,7 +513,7 @@ static void bodies_and_caps(void **state) {
     }
   }
   report("bodies", &c);
-  assert_true(c.hits > 10000 && c.misses > 10000 && c.unsure > 1000 && c.unsure < c.lanes / 2);
+  assert_true(c.hits > 10000 && c.misses > 10000 && c.unsure > 1000 && c.unsure < c.lanes / 2 && slabs > 200);
 }
 
 static void spheres(void **state) {
