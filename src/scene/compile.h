@@ -21,8 +21,15 @@ typedef struct qn_composed {
   uint8_t settled;    /* map, shadow and tame are made; else only `exact`, of a translation, is */
 } qn_composed;
 
+/* Rotations made last, by what was written: their sines and cosines take longer than all the rest of a leaf. */
+enum { QN_TURNS = 16, QN_TURNS_MADE = 256 };
+typedef struct qn_turn { uint32_t node; int there; qn_num map[12]; } qn_turn; /* node: whose numbers they are */
+
 typedef struct qn_maps {
   const quoin_model *model;
+  qn_turn turns[QN_TURNS];
+  unsigned turns_made; /* since turned was last emptied, after QN_TURNS_MADE */
+  qn_ctx turned;       /* their numbers */
   qn_ctx exact;   /* owns the exact entries, last in, first out */
   qn_ctx scratch;
   qn_composed *stack;

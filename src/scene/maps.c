@@ -107,10 +107,50 @@ static int all_small(const qn_num map[12]) {
   return 1;
 }
 
-/* The local map of a node, into ctx. */
+static int same_numbers(const quoin_model *model, uint32_t a, uint32_t b) {
+  const qn_node *x = &model->nodes[a], *y = &model->nodes[b];
+  int same = x->kind == y->kind && x->numbers == y->numbers;
+  for (uint32_t i = 0; same && i < x->numbers; i++) {
+    same = qn_num_equal(model->numbers[x->number0 + i], model->numbers[y->number0 + i]);
+  }
+  return same;
+}
+
+/* The map of a rotation: often that of one a little before. */
+static const qn_num *turn_of(qn_maps *maps, uint32_t node) {
+  const qn_node *d = &maps->model->nodes[node];
+  uint64_t hash = d->kind;
+  for (uint32_t i = 0; i < d->numbers; i++) {
+    qn_num n = maps->model->numbers[d->number0 + i];
+    hash = (hash ^ (n.kind == QN_NUM_SMALL ? (uint64_t)n.u.m : 1) ^ (uint64_t)(uint16_t)n.a << 32) * UINT64_C(0x9E3779B97F4A7C15);
+  }
+  qn_turn *t = &maps->turns[hash >> 60];
+  if (t->there && same_numbers(maps->model, t->node, node)) {
+    return t->map;
+  }
+  if (maps->turns_made++ == QN_TURNS_MADE) {
+    qn_arena_release(&maps->turned.arena, (qn_mark){NULL, NULL});
+    memset(maps->turns, 0, sizeof maps->turns);
+    maps->turns_made = 1;
+  }
+  qn_solid_map(&maps->turned, maps->model, node, t->map);
+  t->node = node;
+  t->there = maps->turned.failed == QUOIN_OK;
+  return t->map;
+}
+
+/* The local map of a node, into ctx, or where turns are kept until the next one is asked for. */
 static void local_map(qn_maps *maps, qn_ctx *ctx, uint32_t node, qn_num map[12]) {
   if (node == QN_NO_NODE) {
     identity(map);
+  } else if (maps->model->nodes[node].kind == QN_NODE_ROTATE || maps->model->nodes[node].kind == QN_NODE_ROTATE_AXIS) {
+    memcpy(map, turn_of(maps, node), 12 * sizeof *map);
+    if (maps->turned.failed != QUOIN_OK && ctx->failed == QUOIN_OK) {
+      ctx->failed = maps->turned.failed;
+    }
+    for (int i = 0; i < 12; i++) { /* a product with 1 is the number itself, so it may be kept longer than the turn */
+      map[i] = qn_num_copy(ctx, map[i]);
+    }
   } else {
     qn_solid_map(ctx, maps->model, node, map);
   }
@@ -187,7 +227,8 @@ quoin_status qn_maps_init(qn_maps *maps, const quoin_model *model, qn_mem *mem) 
   *maps = (qn_maps){.model = model, .inverse_of = SIZE_MAX};
   qn_ctx_init(&maps->exact, mem);
   qn_ctx_init(&maps->scratch, mem);
-  maps->exact.max_bits = maps->scratch.max_bits = QN_MAX_SCENE_BITS;
+  qn_ctx_init(&maps->turned, mem);
+  maps->exact.max_bits = maps->scratch.max_bits = maps->turned.max_bits = QN_MAX_SCENE_BITS;
   maps->exact.max_effort = maps->scratch.max_effort = QN_MAX_SCENE_EFFORT + QN_SCENE_EFFORT_PER_NODE * (uint64_t)model->node_count;
   if (!qn_grow(mem, &maps->stack, &maps->capacity, 1)) {
     return QUOIN_E_MEMORY;
@@ -205,6 +246,7 @@ void qn_maps_free(qn_maps *maps, qn_mem *mem) {
   qn_free(mem, maps->stack, maps->capacity * sizeof *maps->stack);
   qn_ctx_free(&maps->exact);
   qn_ctx_free(&maps->scratch);
+  qn_ctx_free(&maps->turned);
 }
 
 static quoin_status compose(qn_maps *maps, const qn_composed *outer, qn_composed *c, uint32_t node) {

@@ -66,6 +66,10 @@ class Hostile(Case):
     def test_concentric_spheres(self):
         self.ask("".join(f"difference() {{ sphere({i + 1});" for i in range(3000)) + "}" * 3000, [0])
 
+    def test_turns_by_irrational_angles(self):
+        for word in ("rotate(a = 30)", "rotate(a = 20, v = [1, 2, 3])", "rotate([10, 20, 30])", "rotate([10, 0, 0]) rotate([0, 0, 70])"):
+            self.ask(word * (DEEP // word.count("rotate")) + "cube(1);", [0])
+
     def test_leaves_under_one_tower(self):
         turned = "rotate(a = 30, v = [1, 2, 3]) "
         inside = "".join(f"sphere(r = {i + 1});" for i in range(4000))
