@@ -45,7 +45,8 @@ static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_
   static const double weight[6] = {0.7548776662466927, 0.5698402909980532, 0.8191725133961644, 0.6710436067037893, 0.5497004779019703, 0.9318321442141524};
   double row[3][4], s[3], inverse[3][3], X[3] = {0, 0, 0}, l = q->l;
   it->kind = QN_NEAR_NOT;
-  for (int i = 0; i < 3; i++) {
+  const int axis = q->s[2] == 0 && l == 0; /* a cylinder: its third row says nothing of it, and is 0 where it was written as a quadric */
+  for (int i = 0; i < 3 - axis; i++) {
     const double *r = q->row[i];
     double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     if (!(length > 0x1p-200 && length < 0x1p200)) {
@@ -56,6 +57,18 @@ static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_
     }
     s[i] = q->s[i] * length * length;
     l = i == 2 ? q->l * length : l;
+  }
+  if (axis) { /* any row across the others will do: of the axis only the line counts */
+    double length = 0;
+    for (int k = 0; k < 3; k++) {
+      int a = (k + 1) % 3, b = (k + 2) % 3;
+      row[2][k] = row[0][a] * row[1][b] - row[0][b] * row[1][a];
+      length += row[2][k] * row[2][k];
+    }
+    for (int k = 0; k < 3; k++) {
+      row[2][k] /= sqrt(length); /* 0: there is no inverse */
+    }
+    row[2][3] = s[2] = 0;
   }
   if (!invert(row, inverse) || s[0] == 0 || s[1] == 0) {
     return;
@@ -74,7 +87,7 @@ static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_
     along += at * inverse[k][2];
     w2 += inverse[k][2] * inverse[k][2];
   }
-  if (s[2] == 0 && l == 0) { /* of the axis, the place nearest to O */
+  if (axis) { /* of it, the place nearest to O */
     for (int k = 0; k < 3; k++) {
       it->n[k] -= along / w2 * inverse[k][2];
     }

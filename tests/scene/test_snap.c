@@ -96,6 +96,11 @@ static const count_row counts[] = {
   {"cube(10); translate([20,0,0]) cube([5,5,0.001]); translate([40,0,0]) cube([5,5,0.01]);", "0.001", 2, 10, 1}, /* y = 0, y = 5 and z = 0 are shared; a film is gone: its top went to its bottom */
   {"intersection() { cube([1,1,1]); translate([1.0000001,0,0]) cube([1,1,1]); } sphere(3);", "1e-6", 3, 8, 1}, /* they touch, once snapped */
   {"halfspace([1,0,0],1); halfspace([-1,0,0],-1.0000001);", "1e-6", 2, 1, 1},
+  /* cylinders written as quadrics, one beside a cylinder of radius 1; two planes that cross, as one quadric */
+  {"quadric([1,2,0,0,0,0,0,0,0,-1]); translate([1e-9,0,5]) quadric([1,2,0,0,0,0,0,0,0,-1]);", "1e-9", 2, 1, 1},
+  {"quadric([0,1,-2,0,0,0,0,0,0,-1]); translate([7,1e-9,0]) quadric([0,1,-2,0,0,0,0,0,0,-1]);", "9e-10", 2, 2, 0},
+  {"cylinder(r=1,h=3,center=true); translate([0,0,9]) quadric([1,1,0,0,0,0,0,0,0,-1.000000010000000025]);", "5e-9", 2, 3, 1},
+  {"quadric([1,-1,0,0,0,0,0,0,0,0]); translate([0,1e-9,0]) quadric([1,-1,0,0,0,0,0,0,0,0]);", "1e-9", 2, 1, 1},
   {"difference() { cube(10); translate([2,2,-1e-7]) cylinder(h=10.0000002,r=1); }", "1e-6", 2, 7, 2},
   {"rotate([10,20,30]) cube(1); rotate([10,20,30.0000001]) translate([1,0,0]) cube(1);", "1e-8", 2, 7, 5},
   {"rotate([10,20,30]) cube(1); rotate([10,20,30.0000001]) translate([1,0,0]) cube(1);", "1e-10", 2, 12, 0}, /* 1e-7 degrees are 1.7e-9 */
