@@ -85,14 +85,14 @@ typedef struct qn_span_slot {
   uint8_t negated, settles, hit; /* settles: in the leaf the gate has its value whatever the others do; hit: the lanes of the group that meet the leaf */
 } qn_span_slot;
 /* An order of the ends of leaves that lanes meet, and what it makes of the solid (wide/spans_plan.h). From zeros: that of no leaves. */
-enum { QN_PLAN_LEAVES = 48, QN_PLAN_BITS = 5 };
+enum { QN_PLAN_LEAVES = 64, QN_PLAN_BITS = 5 };
 typedef struct qn_span_plan {
-  uint32_t leaves, ends, drops, rows;
+  uint32_t leaves, alives, ends, drops, rows;
   uint32_t leaf[QN_PLAN_LEAVES];     /* in the order in which they are met */
   uint16_t end[2 * QN_PLAN_LEAVES];  /* in order */
   uint16_t row[2 * QN_PLAN_LEAVES];  /* where the solid is entered and left, in turn */
   uint8_t drop[QN_PLAN_LEAVES][2];   /* the first one's stretch changes nothing while it lies well within the other's */
-  uint8_t empty;                     /* these leaves make no solid in any order */
+  uint8_t alive[QN_PLAN_LEAVES];     /* the leaves that may change the solid in some order; none: these leaves make no solid */
 } qn_span_plan;
 typedef struct qn_packet_spans {
   double *ends;          /* aligned to 64 */

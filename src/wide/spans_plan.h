@@ -39,13 +39,13 @@ QN_INLINE int plan_change(const planning *p, const qn_span_slot *slot, int enter
   }
 }
 
-/* Whether any order of the ends in the leaves that the lanes of `which` meet makes the solid: the program only rises with its literals, so it holds nowhere when it does not with all leaves
-   entered and none left that is taken away. It is false where every leaf is outside. */
-static QN_NOINLINE int plan_may_hold(const planning *p, const qn_span_slot *slot, uint32_t slots, unsigned which) {
+/* Whether any order of the ends in a group's leaves makes the solid: the program only rises with its literals, so it holds nowhere when it does not with all leaves entered and none
+   left that is taken away. It is false where every leaf is outside. */
+static QN_NOINLINE int plan_may_hold(const planning *p, const qn_span_slot *slot, uint32_t slots) {
   int value = 0;
   for (int pass = 0; pass < 2; pass++) { /* and back to rest */
     for (uint32_t k = 0; k < slots; k++) {
-      if (!slot[k].negated && slot[k].hit & which) {
+      if (!slot[k].negated) {
         const int other = plan_change(p, &slot[k], !pass);
         value ^= pass ? 0 : other;
       }
@@ -74,6 +74,32 @@ static int plan_group(const planning *p, const qn_span_plan *plan, uint32_t from
   return flips & 1 ? last : -1;
 }
 
+/* The lane's leaves that may change the solid, in any order of the ends: those below no gate that is false with all leaves entered and none left that is taken away. Returns how
+   many; none where the solid is not held at all. */
+static uint32_t plan_alive(const planning *p, uint8_t which[QN_PLAN_LEAVES]) {
+  const qn_gate *gates = p->scene->program.gates;
+  uint32_t n = 0;
+  for (uint32_t k = 0; k < p->leaves; k++) {
+    if (!p->slot[k]->negated) {
+      plan_change(p, p->slot[k], 1);
+    }
+  }
+  for (uint32_t k = 0; k < p->leaves; k++) {
+    uint32_t g = p->slot[k]->gate;
+    while (p->count[g] >= gates[g].need && gates[g].parent != QN_NO_GATE) {
+      g = gates[g].parent;
+    }
+    which[n] = (uint8_t)k;
+    n += p->count[g] >= gates[g].need;
+  }
+  for (uint32_t k = 0; k < p->leaves; k++) {
+    if (!p->slot[k]->negated) {
+      plan_change(p, p->slot[k], 0);
+    }
+  }
+  return n;
+}
+
 QN_INLINE uint32_t plan_insert(qn_span_plan *plan, double *t, uint32_t n, double at, uint32_t end) {
   uint32_t j = n;
   for (; j > 0 && t[j - 1] > at; j--) {
@@ -83,30 +109,34 @@ QN_INLINE uint32_t plan_insert(qn_span_plan *plan, double *t, uint32_t n, double
   return n + 1;
 }
 
-/* The plan of a group's lane; empty: its leaves make no solid in any order. */
-static QN_NOINLINE void plan_make(const planning *p, double tolerance, unsigned lane, int empty, qn_span_plan *plan) {
-  double begins[QN_PLAN_LEAVES], t[2 * QN_PLAN_LEAVES];
-  uint8_t order[QN_PLAN_LEAVES];
-  plan->leaves = p->leaves, plan->ends = plan->drops = plan->rows = 0;
+/* The plan of the leaves, for an order to come. */
+static QN_NOINLINE void plan_begin(const planning *p, qn_span_plan *plan) {
+  plan->leaves = p->leaves;
   for (uint32_t k = 0; k < p->leaves; k++) {
     plan->leaf[k] = p->slot[k]->leaf;
   }
-  plan->empty = (uint8_t)empty;
-  if (empty) {
-    return;
-  }
-  for (uint32_t k = 0; k < p->leaves; k++) {
-    const double a = p->ends[k][lane];
+  plan->alives = plan_alive(p, plan->alive);
+}
+
+/* The plan is to be of the order of a group's lane. */
+static QN_NOINLINE void plan_make(const planning *p, double tolerance, unsigned lane, qn_span_plan *plan) {
+  double begins[QN_PLAN_LEAVES], t[2 * QN_PLAN_LEAVES];
+  uint8_t order[QN_PLAN_LEAVES];
+  const uint8_t *alive = plan->alive;
+  const uint32_t count = plan->alives;
+  plan->ends = plan->drops = plan->rows = 0;
+  for (uint32_t k = 0; k < count; k++) {
+    const double a = p->ends[alive[k]][lane];
     uint32_t j = k;
     for (; j > 0 && begins[j - 1] > a; j--) {
       begins[j] = begins[j - 1], order[j] = order[j - 1];
     }
-    begins[j] = a, order[j] = (uint8_t)k;
+    begins[j] = a, order[j] = alive[k];
   }
   double a = 0, b = -INFINITY;
   uint32_t gate = QN_NO_GATE, n = 0;
   uint8_t widest = 0;
-  for (uint32_t j = 0; j < p->leaves; j++) {
+  for (uint32_t j = 0; j < count; j++) {
     const uint8_t k = order[j];
     const double enter = begins[j], leave = p->ends[k][QN_W + lane];
     const qn_span_slot *slot = p->slot[k];
@@ -238,17 +268,18 @@ static unsigned plan_group_rows(merging *m, const qn_span_slot *slot, uint32_t s
     qn_span_plan *plan = &m->out->plans[place];
     const int known = plan_is_of(p, plan);
     if (!known) {
-      if (!asked && !plan_may_hold(p, slot, slots, QN_ALL_BITS)) {
+      if (!asked && p->leaves < slots && !plan_may_hold(p, slot, slots)) {
         break;
       }
       asked = 1;
-      plan_make(p, tolerance[lane], lane, p->leaves < slots && !plan_may_hold(p, slot, slots, 1u << lane), plan);
+      plan_begin(p, plan);
+      plan_make(p, tolerance[lane], lane, plan);
     }
     unsigned good = with;
-    if (!plan->empty) {
+    if (plan->alives) {
       good = vbits(plan_holds(p, plan, m->tolerance, vmask(with)));
       if (!(good >> lane & 1) && known) {
-        plan_make(p, tolerance[lane], lane, 0, plan);
+        plan_make(p, tolerance[lane], lane, plan);
         good = vbits(plan_holds(p, plan, m->tolerance, vmask(with)));
       }
       plan_write(m, p, plan, vmask(good));
