@@ -39,9 +39,9 @@
 #define QN_SUPPORT_SLACK(n) ((n) * QN_U)
 #define QN_SUPPORT_TINY 0x1p-960
 
-/* The superquadric's norm G = ((|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n))^(n/2) as computed, x, y, z and the exponents each
-   within u: |G^ - G| <= QN_SUPER_NORM(e, n) G. Assumes pow within 1 ulp (2u). */
-#define QN_SUPER_NORM(e, n) ((10 + 2 * (e) + 2 * (n)) * QN_U)
+/* The superquadric's norm G = ((|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n))^(n/2) as computed, x, y, z each within 2u of itself, the
+   exponents within u: |G^ - G| <= QN_SUPER_NORM(e, n) G. Assumes pow within 1 ulp (2u). */
+#define QN_SUPER_NORM(e, n) ((11 + 2 * (e) + 2 * (n)) * QN_U)
 /* t = min/max below QN_SUPER_RATIO may have lost bits to underflow; where t^p then still counts, no bound is given. */
 #define QN_SUPER_RATIO 0x1p-1000
 /* phi(r) = (1 + r^p)^(1/p - 1), p = 2/e, r within 3u: relative error at most QN_SUPER_SLOPE(e, p) (1 + |ln r|); at QN_SUPER_SLOPE_MOST
@@ -55,11 +55,11 @@
 #define QN_SUPER_MARGIN 0x1p-30 /* the stretch is widened by this share at either end */
 /* The superquadric's f = rho^q + z^q along a line as computed (src/shape/superquadric_line.c), s = e/n where rho^q takes a second power, else 0:
      |f^ - f| <= (QN_SUPER_VALUE(s, q) + QN_SUPER_BEYOND max(f^ - 1, 0)) f^ + QN_SUPER_VALUE_0
-   which also holds a rounding of each coordinate, relatively u; in long doubles of 64 bits and more, QN_SUPER_FINER times that. Each
+   which also holds two roundings of each coordinate, relatively 2u; in long doubles of 64 bits and more, QN_SUPER_FINER times that. Each
    addend of df/dt is within QN_SUPER_RATE of itself and QN_SUPER_FADED max |D_i| (underflow). A tangent's step is shortened by QN_SUPER_TANGENT of itself.
    QN_SUPER_LEAST, QN_SUPER_MOST: the range of exponents for that (0 too for e), s at most QN_SUPER_QUOTIENT; QN_SUPER_SHORT, QN_SUPER_LONG: |O_i| and |D_i| that are not 0
    are at least the one, |D_i| at most the other. */
-#define QN_SUPER_VALUE(s, q) ((6 + 12 * (s) + 3 * (q)) * QN_U)
+#define QN_SUPER_VALUE(s, q) ((6 + 12 * (s) + 4 * (q)) * QN_U)
 #define QN_SUPER_VALUE_0 (6 * QN_U)
 #define QN_SUPER_BEYOND (8 * QN_U)
 #define QN_SUPER_FINER 0x1p-10
@@ -72,7 +72,14 @@
 #define QN_SUPER_SHORT 0x1p-200
 #define QN_SUPER_LONG 0x1p+200
 /* Bits of MPFR along a ray: a sign is given when |G - 1| passes the bound above with 2^-QN_SUPER_BITS for u. */
-#define QN_SUPER_BITS 192
+#define QN_SUPER_BITS 256
+/* A line in the solid's frame, as pairs of doubles: |O_i - (O_i^ + o_i^)| <= QN_SUPER_FRAME times the sum of its terms' sizes, D_i alike. A coordinate O_i + t D_i of these is
+   within 2u of itself, QN_SUPER_LOW (|O_i| + |t D_i|) and the pairs' own errors; that sum over |X_i| is at most QN_SUPER_CRUDE where f is given at all with an exponent beyond 2.
+   QN_SUPER_GAP: the share of the size to either side of a coordinate plane on which a piece begins. */
+#define QN_SUPER_FRAME 0x1p-99
+#define QN_SUPER_LOW 0x1p-104
+#define QN_SUPER_CRUDE 0x1p-6
+#define QN_SUPER_GAP 0x1p-47
 
 /* One step outward: x + QN_STEP |x| + 2^-1074 is at least the next double above x. */
 #define QN_STEP 0x1p-52

@@ -1,6 +1,7 @@
 /* One surface along the line: solved once a question, by the filter where it is certain, else exactly. */
 #include "base/bounds.h"
 #include "ray/scratch.h"
+#include "scene/super.h"
 
 #include <float.h>
 #include <math.h>
@@ -131,20 +132,43 @@ static uint32_t solve_exactly(qn_scratch *s, uint32_t surface) {
 
 enum { SUPER_ROOTS = 32 };
 
-/* From the line itself: the filter takes small coordinates for 0. */
-static uint32_t solve_super(qn_scratch *s, const qn_half *half, const qn_leaf *leaf) {
-  const qn_quadric_shadow *q = &s->scene->quadrics[half->shadow];
-  double y[3], O[3], D[3], found[SUPER_ROOTS][2], places[SUPER_ROOTS];
-  for (int i = 0; i < 3; i++) {
-    y[i] = s->line->o[i] - leaf->pivot[i];
+typedef struct super_asked {
+  qn_scratch *s;
+  const qn_super_form *form;
+} super_asked;
+
+/* The line in the solid's frame: X_i = row_i . ((origin + t direction)/w, 1). */
+static int super_exactly(void *user, qn_super_exact *out) {
+  const super_asked *a = user;
+  qn_ctx *ctx = &a->s->ctx;
+  qn_line *line = a->s->line;
+  a->s->counts.exact_signs++;
+  qn_line_make_exact(ctx, line);
+  qn_num o[4] = {QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ZERO, QN_NUM_ONE}, d[3];
+  for (int j = 0; j < 3 && !ctx->failed; j++) {
+    o[j] = qn_num_from_rat(ctx, line->origin[j], line->w, 0);
+    d[j] = qn_num_from_rat(ctx, line->direction[j], line->w, 0);
   }
-  for (int i = 0; i < 3; i++) {
-    const double *r = q->row[i];
-    O[i] = ((r[0] * y[0] + r[1] * y[1]) + r[2] * y[2]) + r[3];
-    D[i] = (r[0] * s->line->d[0] + r[1] * s->line->d[1]) + r[2] * s->line->d[2];
+  *out = (qn_super_exact){.ctx = ctx, .e = a->form->e, .n = a->form->n};
+  for (int i = 0; i < 3 && !ctx->failed; i++) {
+    out->O[i] = qn_num_dot(ctx, 4, a->form->row[i], o);
+    out->D[i] = qn_num_dot(ctx, 3, a->form->row[i], d);
   }
-  int finite = isfinite(O[0]) && isfinite(O[1]) && isfinite(O[2]) && isfinite(D[0]) && isfinite(D[1]) && isfinite(D[2]);
-  size_t n = finite ? qn_superquadric_roots(q->s[0], q->s[1], O, D, found, SUPER_ROOTS) : 0, kept = 0;
+  return !ctx->failed;
+}
+
+static uint32_t solve_super(qn_scratch *s, uint32_t surface) {
+  quoin_status status = QUOIN_OK;
+  const qn_super_form *form = qn_scene_super(s->scene, surface, &status);
+  if (!form) {
+    qn_scratch_fail(s, status);
+    return QN_NO_SOLVED;
+  }
+  super_asked asked = {s, form};
+  qn_super_frame frame;
+  double found[SUPER_ROOTS][2], places[SUPER_ROOTS];
+  int made = !s->line->rounded && qn_super_frame_make(&form->rows, s->line->o, s->line->d, &frame);
+  size_t n = qn_superquadric_roots(made ? &frame : NULL, super_exactly, &asked, found, SUPER_ROOTS), kept = 0;
   for (size_t i = 0; i < n; i++) { /* S10: a place is its double; a pair in one double is no stretch */
     double t = found[i][0] + 0.5 * (found[i][1] - found[i][0]);
     if (kept && places[kept - 1] == t) {
@@ -173,7 +197,7 @@ uint32_t qn_solve_half(qn_scratch *s, const qn_leaf *leaf, qn_filter_leaf *frame
   }
   uint32_t at;
   if (half->kind == QN_SUPER_BODY) {
-    at = solve_super(s, half, leaf);
+    at = solve_super(s, half->surface);
   } else {
     if (s->range[index] == RANGE_UNKNOWN) {
       s->range[index] = half_range(s->scene, leaf, half);

@@ -4,6 +4,7 @@
 #include "scene/cells.h"
 #include "scene/compile.h"
 #include "scene/rounding.h"
+#include "scene/super.h"
 #include "scene/snap.h"
 
 #include "base/limits.h"
@@ -242,7 +243,11 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   qn_mem *mem = s->mem;
   quoin_model *model = s->model;
   for (size_t i = 0; i < s->surface_count; i++) {
-    qn_exact_free(mem, atomic_load_explicit(&s->surfaces[i].exact, memory_order_relaxed));
+    if (s->surfaces[i].kind == QN_SUPER_BODY) {
+      qn_super_form_free(mem, atomic_load_explicit(&s->surfaces[i].super, memory_order_relaxed));
+    } else {
+      qn_exact_free(mem, atomic_load_explicit(&s->surfaces[i].exact, memory_order_relaxed));
+    }
     qn_rounding_free(mem, atomic_load_explicit(&s->surfaces[i].rounding, memory_order_relaxed));
   }
   qn_free(mem, s->surfaces, s->surface_room * sizeof *s->surfaces);

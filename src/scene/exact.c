@@ -223,7 +223,7 @@ const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surfac
   if (made) {
     *made = 0;
   }
-  const qn_exact_surface *exact = atomic_load_explicit(&s->exact, memory_order_acquire);
+  const qn_exact_surface *exact = s->kind == QN_SUPER_BODY ? NULL : atomic_load_explicit(&s->exact, memory_order_acquire);
   if (!exact && s->kind != QN_SUPER_BODY) {
     qn_ctx ctx;
     qn_exact_surface form = {.beyond = 1};
@@ -240,6 +240,7 @@ const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surfac
 }
 
 quoin_status qn_scene_no_exact(const quoin_scene *scene, uint32_t surface) {
-  const qn_exact_surface *exact = atomic_load_explicit(&scene->surfaces[surface].exact, memory_order_acquire);
+  const qn_surface *s = &scene->surfaces[surface];
+  const qn_exact_surface *exact = s->kind == QN_SUPER_BODY ? NULL : atomic_load_explicit(&s->exact, memory_order_acquire);
   return exact && exact->beyond ? QUOIN_E_LIMIT : QUOIN_E_MEMORY;
 }

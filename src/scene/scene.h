@@ -55,7 +55,10 @@ typedef struct qn_surface {
   uint32_t users;
   uint8_t materials_differ;       /* its users are of several materials */
   uint8_t kind;
-  _Atomic(qn_exact_surface *) exact; /* null until asked for */
+  union {                         /* null until asked for */
+    _Atomic(qn_exact_surface *) exact;
+    _Atomic(struct qn_super_form *) super; /* of a superquadric: scene/super.h */
+  };
   _Atomic(struct qn_rounding *) rounding; /* likewise: scene/rounding.h */
 } qn_surface;
 

@@ -300,12 +300,18 @@ static uint32_t key_of(qn_maker *m, const qn_half_form *h, const double row[4], 
   return key;
 }
 
+/* e and n of a superquadric; rounded to a double a little more would pass. */
+static int at_most_two(qn_num exponent) {
+  double hi, lo;
+  return qn_num_quick_pair(exponent, &hi, &lo) ? hi < 2 || (hi == 2 && lo <= 0) : qn_num_to_double(exponent) < 2;
+}
+
 static int is_convex(const qn_half_form *h) {
   if (h->kind == QN_PLANE) {
     return 1;
   }
   if (h->kind == QN_SUPER_BODY) { /* exponents up to 2 */
-    return qn_num_to_double(h->s[0]) <= 2 && qn_num_to_double(h->s[1]) <= 2;
+    return at_most_two(h->s[0]) && at_most_two(h->s[1]);
   }
   return qn_num_sign(h->s[0]) >= 0 && qn_num_sign(h->s[1]) >= 0 && qn_num_sign(h->s[2]) >= 0;
 }

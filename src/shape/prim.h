@@ -10,6 +10,7 @@
 
 #include "number/num.h"
 #include "quoin/scene.h" /* quoin_role */
+#include "shape/super_frame.h"
 
 typedef enum qn_prim {
   QN_SPHERE,       /* r */
@@ -94,12 +95,12 @@ void qn_superquadric_gradient(double e, double n, const double X[3], double g[3]
 /* The sign of value - 1 at a point with exact coordinates, in MPFR at growing precision to QN_S2_PRECISION bits; 0 when still
    undecided. */
 int qn_superquadric_sign(qn_ctx *ctx, qn_num e, qn_num n, const qn_num X[3]);
-/* Roots of the superquadric along X(t) = O + t D: disjoint enclosures [lo, hi] in increasing order into roots[] (at most
+/* Roots of the superquadric along a line, X(t) = O + t D in its frame (super_frame.h): disjoint enclosures [lo, hi] in increasing order into roots[] (at most
    max), isolated by interval arithmetic with bisection and refined by safeguarded Newton to the last bits; a pair closer than
    2^-40 of the solid's size may be missed (S10). The value is positive before the first and changes sign at each: at both ends of
-   an
-   enclosure the sign is certain for the line with these O and D. Returns the count. Cost: 0.4 to 1.5 us; very
+   an enclosure the sign is certain for the exact line. frame: null where it is to be made from the exact line, which else is asked for only where frame leaves
+   something open; 0 roots when it was refused. Returns the count. Cost: 0.4 to 1.5 us; very
    near a tangent, and with exponents under 2^-9 (but e = 0) or over 8, 10 us to a few ms. */
-size_t qn_superquadric_roots(double e, double n, const double O[3], const double D[3], double (*roots)[2], size_t max);
+size_t qn_superquadric_roots(const qn_super_frame *frame, qn_super_ask ask, void *user, double (*roots)[2], size_t max);
 
 #endif

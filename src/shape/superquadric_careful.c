@@ -22,53 +22,87 @@ enum { MOST_NODES = 4000, STACK = 256, MOST_SIGNS = 256 };
 
 typedef struct curve {
   qn_super s;
-  double O[3], D[3], size; /* size: the longest stretch of such a line in the box */
-  qn_super_mp mp;
-  int mp_ready;
+  qn_super_frame frame;
+  double off[3], size; /* off: what the frame's pairs leave of a coordinate; size: the longest stretch of such a line in the box */
+  int convex;
+  const qn_super_exact *exact;
+  qn_super_mp mp[2]; /* of QN_SUPER_BITS/2 and QN_SUPER_BITS bits */
+  int mp_ready[2];
 } curve;
 
 typedef struct sample { double value, slope, error, slope_error; } sample;
 
-static double along(const curve *c, int i, double t) { return fma(c->D[i], t, c->O[i]); }
+static double along(const curve *c, int i, double t) {
+  return fma(c->frame.D[i][0], t, c->frame.O[i][0]) + (c->frame.D[i][1] * t + c->frame.O[i][1]);
+}
+
+/* What the coordinates add to the error of G, in which they are within 2u: its gradient is at most 1 where it is convex, else it is homogeneous. */
+static double moved(const curve *c, const double X[3], double norm) {
+  double all = 0, share = 0;
+  for (int i = 0; i < 3; i++) {
+    all += c->off[i];
+    share = c->off[i] > 0 ? fmax(share, c->off[i] / fabs(X[i])) : share;
+  }
+  return c->convex ? 2 * all : share < QN_SUPER_CRUDE ? 2 * share * norm : INFINITY;
+}
 
 static sample look(const curve *c, double t) {
-  double X[3] = {along(c, 0, t), along(c, 1, t), along(c, 2, t)}, g[3];
+  double X[3] = {along(c, 0, t), along(c, 1, t), along(c, 2, t)}, g[3], D[3] = {c->frame.D[0][0], c->frame.D[1][0], c->frame.D[2][0]};
   sample r;
-  r.value = qn_super_norm(&c->s, X, g, &r.error) - 1;
-  r.slope = g[0] * c->D[0] + g[1] * c->D[1] + g[2] * c->D[2];
-  double size = fabs(g[0] * c->D[0]) + fabs(g[1] * c->D[1]) + fabs(g[2] * c->D[2]);
+  double norm = qn_super_norm(&c->s, X, g, &r.error);
+  r.value = norm - 1;
+  r.error += moved(c, X, norm);
+  r.slope = g[0] * D[0] + g[1] * D[1] + g[2] * D[2];
+  double size = fabs(g[0] * D[0]) + fabs(g[1] * D[1]) + fabs(g[2] * D[2]);
   /* The slope at a point a few u away, which is as good where G is convex: p does not enter (see find_inside). */
   r.slope_error = (QN_SUPER_SLOPE(c->s.e, 0) + QN_SUPER_SLOPE(c->s.n, 0)) * size;
+  for (int i = 0; i < 3; i++) {
+    r.slope_error += c->frame.D_off[i];
+  }
   return r;
 }
 
 static int sample_sign(sample s) { return s.value > s.error || s.value == INFINITY ? 1 : s.value < -s.error ? -1 : 0; }
 
-/* Signs of G - 1 and of its slope in MPFR. */
-static int fine_sign(curve *c, double t, int *slope) {
-  qn_super_mp *mp = &c->mp;
-  if (!c->mp_ready) {
-    qn_super_mp_init(mp, QN_SUPER_BITS);
-    mpfr_set_d(mp->e, c->s.e, MPFR_RNDN);
-    mpfr_set_d(mp->n, c->s.n, MPFR_RNDN);
+/* Signs of G - 1 and of its slope in MPFR, at the exact point. *slope: NULL when it does not matter; where its addends cancel by more than half of the bits
+   it is 0 at the first level. */
+static int finely(curve *c, int level, double t, int *slope) {
+  qn_super_mp *mp = &c->mp[level];
+  qn_ctx *ctx = c->exact->ctx;
+  if (!c->mp_ready[level]) {
+    qn_super_mp_init(mp, level ? QN_SUPER_BITS : QN_SUPER_BITS / 2);
+    qn_super_mp_set(ctx, mp->e, c->exact->e);
+    qn_super_mp_set(ctx, mp->n, c->exact->n);
     qn_super_mp_exponents(mp);
-    c->mp_ready = 1;
+    c->mp_ready[level] = 1;
   }
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  qn_num at[2] = {qn_num_from_double(ctx, t), QN_NUM_ONE};
   for (int i = 0; i < 3; i++) {
-    mpfr_set_d(mp->x[i], c->D[i], MPFR_RNDN);
-    mpfr_mul_d(mp->x[i], mp->x[i], t, MPFR_RNDN); /* exact: 106 bits */
-    mpfr_add_d(mp->x[i], mp->x[i], c->O[i], MPFR_RNDN);
+    const qn_num line[2] = {c->exact->D[i], c->exact->O[i]};
+    qn_super_mp_set(ctx, mp->x[i], qn_num_dot(ctx, 2, line, at));
   }
   int sign = qn_super_mp_sign(mp);
   if (slope) {
     mpfr_set_zero(mp->t, 1);
+    mpfr_set_zero(mp->bound, 1);
     for (int i = 0; i < 3; i++) {
-      mpfr_mul_d(mp->w, mp->g[i], c->D[i], MPFR_RNDN);
+      qn_super_mp_set(ctx, mp->w, c->exact->D[i]);
+      mpfr_mul(mp->w, mp->g[i], mp->w, MPFR_RNDN);
       mpfr_add(mp->t, mp->t, mp->w, MPFR_RNDN);
+      mpfr_abs(mp->w, mp->w, MPFR_RNDN);
+      mpfr_max(mp->bound, mp->bound, mp->w, MPFR_RNDN);
     }
-    *slope = mpfr_nan_p(mp->t) ? 0 : mpfr_sgn(mp->t);
+    mpfr_div_2ui(mp->bound, mp->bound, QN_SUPER_BITS / 4, MPFR_RNDN);
+    *slope = mpfr_nan_p(mp->t) || (level == 0 && mpfr_cmpabs(mp->t, mp->bound) < 0) ? 0 : mpfr_sgn(mp->t);
   }
-  return sign;
+  qn_arena_release(&ctx->arena, mark);
+  return ctx->failed ? 0 : sign;
+}
+
+static int fine_sign(curve *c, double t, int *slope) {
+  int sign = finely(c, 0, t, slope);
+  return sign && (!slope || *slope) ? sign : finely(c, 1, t, slope);
 }
 
 static int sign_at(curve *c, double t) {
@@ -244,10 +278,11 @@ static double slope_bound(double e, double p, double ratio, int way) {
   return phi < INFINITY ? fmax(0, phi - phi * error - DBL_MIN) : DBL_MAX;
 }
 
-/* phi over ratios b/a with a, b in intervals of numbers >= 0. */
-static qn_interval slope_range(double e, double p, qn_interval a, qn_interval b) {
+/* phi over ratios b/a with a, b in intervals of numbers >= 0. sure: the exponent is exactly e. */
+static qn_interval slope_range(double e, double p, int sure, qn_interval a, qn_interval b) {
   if (p == 1) {
-    return (qn_interval){1, 1};
+    double off = sure ? 0 : QN_SUPER_SLOPE(e, p) * (1 - log(DBL_TRUE_MIN));
+    return (qn_interval){1 - off, 1 + off};
   }
   qn_interval open = p > 1 ? (qn_interval){0, 1} : (qn_interval){1, INFINITY};
   if (e == 0 && (b.hi < a.lo || b.lo > a.hi)) {
@@ -263,24 +298,26 @@ static qn_interval slope_range(double e, double p, qn_interval a, qn_interval b)
   return r.lo == r.lo && r.hi == r.hi ? r : open;
 }
 
-static qn_interval scaled(qn_interval a, double d) {
-  return d == 0 ? (qn_interval){0, 0} : qn_interval_mul(a, (qn_interval){d, d});
+/* Times the speed of a coordinate, of which d is the first double: way 1 or -1. */
+static qn_interval scaled(qn_interval a, const curve *c, int i, int way) {
+  double d = way * c->frame.D[i][0], off = c->frame.D_off[i] + 2 * fabs(c->frame.D[i][1]);
+  return d == 0 && off == 0 ? (qn_interval){0, 0} : qn_interval_mul(a, (qn_interval){d - off, d + off});
 }
 
 typedef enum verdict { SPLIT, ABOVE, BELOW, MONOTONE } verdict;
 
 static verdict judge(const curve *c, double a, double b) {
   qn_interval x[3];
-  double lo[3], hi[3], g[3], error, rate[3];
-  int crossing = 0;
+  double lo[3], hi[3], g[3], error;
+  int crossing = 0, way[3]; /* way: d|X_i|/dt is way D_i on a piece of one sign */
   for (int i = 0; i < 3; i++) {
-    double l = along(c, i, a), h = along(c, i, b);
-    int cross = (l < 0 && h > 0) || (l > 0 && h < 0);
+    double l = along(c, i, a), h = along(c, i, b), d = c->frame.D[i][0];
+    int cross = d != 0 && ((l < c->off[i] && h > -c->off[i]) || (l > -c->off[i] && h < c->off[i]));
     crossing |= cross;
-    rate[i] = l < 0 || h < 0 ? -c->D[i] : c->D[i]; /* d|X_i|/dt on a piece of one sign */
+    way[i] = l < 0 || h < 0 ? -1 : 1;
     l = fabs(l), h = fabs(h);
-    lo[i] = cross ? 0 : fmin(l, h);
-    hi[i] = fmax(l, h);
+    lo[i] = cross ? 0 : fmax(0, fmin(l, h) * (1 - 4 * QN_U) - c->off[i]);
+    hi[i] = fmax(l, h) * (1 + 4 * QN_U) + c->off[i];
     x[i] = (qn_interval){lo[i], hi[i]};
   }
   double least = qn_super_norm(&c->s, lo, g, &error);
@@ -301,9 +338,10 @@ static verdict judge(const curve *c, double a, double b) {
   rho.hi = qn_super_norm(&c->s, flat_hi, g, &rho_error);
   rho.hi += rho_error;
   double e = c->s.e, p = c->s.p, n = c->s.n, q = c->s.q;
-  qn_interval dx = scaled(slope_range(e, p, x[0], x[1]), rate[0]), dy = scaled(slope_range(e, p, x[1], x[0]), rate[1]);
-  qn_interval flat = qn_interval_mul(slope_range(n, q, rho, x[2]), qn_interval_add(dx, dy));
-  qn_interval slope = qn_interval_add(flat, scaled(slope_range(n, q, x[2], rho), rate[2]));
+  int sure_e = c->frame.e[1] == 0, sure_n = c->frame.n[1] == 0;
+  qn_interval dx = scaled(slope_range(e, p, sure_e, x[0], x[1]), c, 0, way[0]), dy = scaled(slope_range(e, p, sure_e, x[1], x[0]), c, 1, way[1]);
+  qn_interval flat = qn_interval_mul(slope_range(n, q, sure_n, rho, x[2]), qn_interval_add(dx, dy));
+  qn_interval slope = qn_interval_add(flat, scaled(slope_range(n, q, sure_n, x[2], rho), c, 2, way[2]));
   return slope.lo > 0 || slope.hi < 0 ? MONOTONE : SPLIT;
 }
 
@@ -330,21 +368,31 @@ static void settle(curve *c, double a, double b, places *p) {
   }
 }
 
+/* The place where the line crosses a coordinate plane, between two others near it; 0: it does not, or too slowly. */
+static int crossed_at(const curve *c, int i, double *l, double *h) {
+  qn_ctx *ctx = c->exact->ctx;
+  if (qn_num_is_zero(c->exact->D[i])) {
+    return 0;
+  }
+  qn_mark mark = qn_arena_mark(&ctx->arena);
+  double t = -qn_num_to_double(qn_num_div(ctx, c->exact->O[i], c->exact->D[i]));
+  qn_arena_release(&ctx->arena, mark);
+  double gap = QN_SUPER_NARROW * 0x1p-4 * c->size;
+  *l = qn_step_down(t - gap), *h = qn_step_up(t + gap);
+  return isfinite(t);
+}
+
 static void general(curve *c, double a, double b, places *p) {
   double cut[8];
   size_t n = 0;
   cut[n++] = a;
-  for (int i = 0; i < 3; i++) { /* either side of each coordinate plane, where the sign is certain: fma rounds once */
-    if (c->D[i] != 0) {
-      double t = -c->O[i] / c->D[i], l = t, h = t;
-      for (int k = 0; k < 4 && along(c, i, l) * c->D[i] >= 0; k++) {
-        l = qn_step_down(l);
-      }
-      for (int k = 0; k < 4 && along(c, i, h) * c->D[i] <= 0; k++) {
-        h = qn_step_up(h);
-      }
-      if (between(a, l, b) && between(a, h, b)) {
+  for (int i = 0; i < 3; i++) { /* either side of each coordinate plane, where the sign is certain */
+    double l, h;
+    if (crossed_at(c, i, &l, &h)) {
+      if (between(a, l, b)) {
         cut[n++] = l;
+      }
+      if (between(a, h, b)) {
         cut[n++] = h;
       }
     }
@@ -368,12 +416,27 @@ static void general(curve *c, double a, double b, places *p) {
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
-size_t qn_super_careful(double e, double n, const double O[3], const double D[3], double a, double b, double (*roots)[2],
-                        size_t max) {
-  curve c = {.s = qn_super_make(e, n), .O = {O[0], O[1], O[2]}, .D = {D[0], D[1], D[2]}};
-  c.size = fmin(2 / fmax(fabs(D[0]), fmax(fabs(D[1]), fabs(D[2]))), DBL_MAX);
+size_t qn_super_careful(const qn_super_exact *line, double (*roots)[2], size_t max) {
+  curve c = {.exact = line};
+  const qn_num two = qn_num_from_int(line->ctx, 2);
+  double a, b, most = 0;
+  qn_super_frame_from_exact(line, &c.frame);
+  c.s = qn_super_make(c.frame.e[0], c.frame.n[0]);
+  c.convex = qn_num_cmp(line->ctx, line->e, two) <= 0 && qn_num_cmp(line->ctx, line->n, two) <= 0;
+  if (line->ctx->failed || !qn_super_clip(&c.frame, &a, &b) || !isfinite(a) || !isfinite(b)) {
+    return 0;
+  }
+  for (int i = 0; i < 3; i++) {
+    const double *O = c.frame.O[i], *D = c.frame.D[i];
+    c.off[i] = qn_super_off(&c.frame, i, fmax(fabs(a), fabs(b)));
+    if ((fabs(O[0]) < 0x1p-900 && O[0] != 0) || (fabs(D[0]) < 0x1p-900 && D[0] != 0)) {
+      c.off[i] += 0x1p-1060; /* a product may underflow */
+    }
+    most = fmax(most, fabs(D[0]));
+  }
+  c.size = fmin(2 / most, DBL_MAX);
   places p = {.count = 0};
-  if (e <= 2 && n <= 2) {
+  if (c.convex) {
     double inside, left, right;
     if (find_inside(&c, a, b, &inside, &left, &right)) {
       place(&p, left, 1);
@@ -384,7 +447,7 @@ size_t qn_super_careful(double e, double n, const double O[3], const double D[3]
     general(&c, a, b, &p);
   }
   size_t count = 0;
-  for (size_t i = 0; i + 1 < p.count && count < max; i++) {
+  for (size_t i = 0; i + 1 < p.count && count < max && !line->ctx->failed; i++) {
     if (p.sign[i] != p.sign[i + 1]) {
       roots[count][0] = p.t[i];
       roots[count][1] = p.t[i + 1];
@@ -392,8 +455,10 @@ size_t qn_super_careful(double e, double n, const double O[3], const double D[3]
       count++;
     }
   }
-  if (c.mp_ready) {
-    qn_super_mp_free(&c.mp);
+  for (int level = 0; level < 2; level++) {
+    if (c.mp_ready[level]) {
+      qn_super_mp_free(&c.mp[level]);
+    }
   }
   return count;
 }

@@ -16,31 +16,57 @@ static unsigned halves(double p) {
   return twice >= 1 && twice <= QN_SUPER_HALVES && twice == floor(twice) ? (unsigned)twice : 0;
 }
 
-int qn_super_line_make(double e, double n, const double O[3], const double D[3], qn_super_line *out) {
+double qn_super_off(const qn_super_frame *f, int i, double most) {
+  double off = f->O_off[i] + 3 * most * f->D_off[i];
+  if (f->O[i][1] != 0 || f->D[i][1] != 0) {
+    off += QN_SUPER_LOW * (fabs(f->O[i][0]) + 3 * most * fabs(f->D[i][0]));
+  }
+  return off;
+}
+
+/* Exponents that are not 2, or a special case, but round to it, are left to the careful search, or are none. */
+static int settle_exponents(const qn_super_frame *f, qn_super_line *out) {
+  double e = f->e[0], n = f->n[0];
   if (!((e >= QN_SUPER_LEAST || e == 0) && n >= QN_SUPER_LEAST && e <= QN_SUPER_MOST && n <= QN_SUPER_MOST && e <= QN_SUPER_QUOTIENT * n)) {
     return 0;
   }
-  double most = 0;
-  for (int i = 0; i < 3; i++) {
-    double d = fabs(D[i]);
-    if ((d < QN_SUPER_SHORT && d > 0) || (fabs(O[i]) < QN_SUPER_SHORT && O[i] != 0)) {
-      return 0; /* else no power of a coordinate loses bits to underflow that count */
-    }
-    most = d > most ? d : most;
-    out->O[i] = O[i], out->D[i] = D[i];
-  }
-  if (!(most > 0 && most <= QN_SUPER_LONG)) {
+  if ((e == 2 && f->e[1] != 0) || (n == 2 && f->n[1] != 0)) {
     return 0;
   }
+  out->e = e, out->n = n, out->p = e > 0 ? 2 / e : INFINITY, out->q = 2 / n, out->s = e / n;
+  out->e_rest = f->e[1], out->n_rest = f->n[1];
+  out->inner = e == n && f->e[1] == f->n[1] ? QN_SUPER_SAME
+               : e == 1 && f->e[1] == 0     ? QN_SUPER_ROUND
+               : e == 2                     ? QN_SUPER_SUM
+               : e == 0                     ? QN_SUPER_LARGER
+                                            : QN_SUPER_ANY;
+  out->p2 = halves(out->p), out->q2 = halves(out->q), out->r2 = halves(0.5 * out->q);
+  out->convex = e <= 2 && n <= 2;
+  return 1;
+}
+
+int qn_super_line_make(const qn_super_frame *frame, double a, double b, qn_super_line *out) {
+  double most = 0, end = fmax(fabs(a), fabs(b)), off = 0, rate = 0;
+  for (int i = 0; i < 3; i++) {
+    double o = frame->O[i][0], d = frame->D[i][0], size = fabs(d);
+    if ((size < QN_SUPER_SHORT && size > 0) || (fabs(o) < QN_SUPER_SHORT && o != 0)) {
+      return 0; /* else no power of a coordinate loses bits to underflow that count */
+    }
+    most = size > most ? size : most;
+    out->O[i] = o, out->D[i] = d;
+    out->O_rest[i] = frame->O[i][1], out->D_rest[i] = frame->D[i][1];
+    out->off[i] = qn_super_off(frame, i, end);
+    off += out->off[i];
+    rate += frame->D_off[i];
+  }
+  if (!(most > 0 && most <= QN_SUPER_LONG) || !(off < 0x1p-20) || !settle_exponents(frame, out)) {
+    return 0;
+  }
+  out->shift = 1.125 * out->q * off;
+  out->drift = 1.125 * out->q * rate;
+  out->crude = 2 * (1 + (out->e > 0 ? out->p : 0) + out->q);
   out->size = 2 / most;
   out->faded = QN_SUPER_FADED * most;
-  out->e = e, out->n = n, out->p = e > 0 ? 2 / e : INFINITY, out->q = 2 / n, out->s = e / n;
-  out->inner = e == n   ? QN_SUPER_SAME
-               : e == 1 ? QN_SUPER_ROUND
-               : e == 2 ? QN_SUPER_SUM
-               : e == 0 ? QN_SUPER_LARGER
-                        : QN_SUPER_ANY;
-  out->p2 = halves(out->p), out->q2 = halves(out->q), out->r2 = halves(0.5 * out->q);
   out->error = QN_SUPER_VALUE(out->inner == QN_SUPER_ANY ? out->s : 0, out->q);
   out->scale = 1;
   out->fine = 0;
@@ -61,6 +87,7 @@ qn_super_line qn_super_reversed(const qn_super_line *c) {
   qn_super_line r = *c;
   for (int i = 0; i < 3; i++) {
     r.D[i] = -r.D[i];
+    r.D_rest[i] = -r.D_rest[i];
   }
   return r;
 }
@@ -68,6 +95,30 @@ qn_super_line qn_super_reversed(const qn_super_line *c) {
 static double error_of(const qn_super_line *c, double f) {
   double beyond = f > 1 ? QN_SUPER_BEYOND * (f - 1) : 0;
   return c->scale * ((c->error + beyond) * f + QN_SUPER_VALUE_0);
+}
+
+/* The coordinates' errors beyond their roundings. Convex: |df/dX_i| <= q max(1, f). */
+QN_INLINE void admit_convex(const qn_super_line *c, double f, qn_super_look *r) {
+  double most = f > 1 ? f : 1;
+  r->error += c->shift * most;
+  r->slope_error += c->drift * most;
+}
+
+/* Else f(X) is within (1 + r)^q of f(X^) where every |X_i - X_i^| <= r |X_i^|. all, rising: of the magnitudes of the addends of df/dt and of d(rho^q)/dt. */
+static void admit(const qn_super_line *c, const double x[3], double f, double all, double rising, qn_super_look *r) {
+  double share = 0;
+  for (int i = 0; i < 3; i++) {
+    double s = c->off[i] > 0 ? c->off[i] / x[i] : 0;
+    share = s > share ? s : share;
+  }
+  r->crude = c->crude * share;
+  if (r->crude <= QN_SUPER_CRUDE) {
+    r->error += 2.25 * c->q * share * f;
+    r->slope_error += r->crude * all;
+    r->rise_error += r->crude * rising;
+  } else {
+    r->error = r->slope_error = r->rise_error = INFINITY;
+  }
 }
 
 /* x^p; twice: 2p, or 0 when it is no small integer. */
@@ -84,7 +135,7 @@ QN_INLINE double power(double x, double p, unsigned twice) {
 }
 
 static qn_super_look look(const qn_super_line *c, double t) {
-  double X = fma(c->D[0], t, c->O[0]), Y = fma(c->D[1], t, c->O[1]), Z = fma(c->D[2], t, c->O[2]);
+  double X = qn_super_along(c, 0, t), Y = qn_super_along(c, 1, t), Z = qn_super_along(c, 2, t);
   double x = fabs(X), y = fabs(Y), z = fabs(Z), inner = 0, gx = 0, gy = 0, k; /* gx: what x adds to f'/q, over X' */
   double outer = power(z, c->q, c->q2), gz = z > 0 ? outer / Z : 0;
   switch (c->inner) {
@@ -125,7 +176,12 @@ static qn_super_look look(const qn_super_line *c, double t) {
   }
   gx *= c->q * c->D[0], gy *= c->q * c->D[1], gz *= c->q * c->D[2];
   double f = inner + outer, rise = gx + gy, all = fabs(gx) + fabs(gy);
-  qn_super_look r = {f - 1, rise + gz, error_of(c, f), QN_SUPER_RATE * (all + fabs(gz)) + c->faded, inner, rise, QN_SUPER_RATE * all + c->faded, outer};
+  qn_super_look r = {f - 1, rise + gz, error_of(c, f), QN_SUPER_RATE * (all + fabs(gz)) + c->faded, inner, rise, QN_SUPER_RATE * all + c->faded, outer, 0};
+  if (c->convex) {
+    admit_convex(c, f, &r);
+  } else if (c->shift > 0) {
+    admit(c, (double[3]){x, y, z}, f, all + fabs(gz), all, &r);
+  }
   return r;
 }
 
@@ -144,18 +200,19 @@ static long double finely_powered(long double x, long double p, unsigned twice) 
 }
 
 /* O + t D: product and sum each with its exact remainder. */
-static long double finely_along(double o, double d, double t) {
-  double product = d * t, rest = fma(d, t, -product), sum = o + product, part = sum - o;
-  return (long double)sum + ((long double)((o - (sum - part)) + (product - part)) + rest);
+static long double finely_along(const qn_super_line *c, int i, double t) {
+  double o = c->O[i], d = c->D[i], product = d * t, rest = fma(d, t, -product), sum = o + product, part = sum - o;
+  return (long double)sum + ((long double)((o - (sum - part)) + (product - part)) + rest + (c->O_rest[i] + (long double)c->D_rest[i] * t));
 }
 
 /* As look(), with the exponents not rounded: twice p counts only where it is exact. */
 static qn_super_look look_finely(const qn_super_line *c, double t) {
-  long double X[3], x[3], g[3] = {0}, p = 2 / (long double)c->e, q = 2 / (long double)c->n, inner = 0, k;
-  unsigned p2 = (long double)c->e * c->p2 == 4 ? c->p2 : 0, q2 = (long double)c->n * c->q2 == 4 ? c->q2 : 0;
-  unsigned r2 = (long double)c->n * c->r2 == 2 ? c->r2 : 0;
+  const long double e = (long double)c->e + c->e_rest, n = (long double)c->n + c->n_rest;
+  long double X[3], x[3], g[3] = {0}, p = 2 / e, q = 2 / n, inner = 0, k;
+  unsigned p2 = c->e_rest == 0 && e * c->p2 == 4 ? c->p2 : 0, q2 = c->n_rest == 0 && n * c->q2 == 4 ? c->q2 : 0;
+  unsigned r2 = c->n_rest == 0 && n * c->r2 == 2 ? c->r2 : 0;
   for (int i = 0; i < 3; i++) {
-    X[i] = finely_along(c->O[i], c->D[i], t);
+    X[i] = finely_along(c, i, t);
     x[i] = fabsl(X[i]);
   }
   long double outer = finely_powered(x[2], q, q2);
@@ -191,7 +248,7 @@ static qn_super_look look_finely(const qn_super_line *c, double t) {
     long double a = x[big], b = x[1 - big], w = 0, l = 0;
     if (b > 0) {
       w = finely_powered(b / a, p, p2);
-      l = c->e / (long double)c->n * log2l(1 + w);
+      l = e / n * log2l(1 + w);
     }
     inner = q2 ? finely_powered(a, q, q2) * exp2l(l) : exp2l(q * log2l(a) + l);
     k = inner / (1 + w);
@@ -208,6 +265,11 @@ static qn_super_look look_finely(const qn_super_line *c, double t) {
   r.inner = (double)inner, r.rise = (double)(g[0] + g[1]), r.outer = (double)outer;
   r.rise_error = QN_SUPER_RATE * (double)(fabsl(g[0]) + fabsl(g[1])) + c->faded;
   r.error = error_of(c, (double)f) + QN_U * fabs(r.over);
+  if (c->convex) {
+    admit_convex(c, (double)f, &r);
+  } else if (c->shift > 0) {
+    admit(c, (double[3]){(double)x[0], (double)x[1], (double)x[2]}, (double)f, (double)all, (double)(fabsl(g[0]) + fabsl(g[1])), &r);
+  }
   return r;
 }
 

@@ -148,7 +148,7 @@ typedef struct end {
 } end;
 
 static end end_at(const qn_super_line *c, double t) {
-  end r = {.t = t, .z = fabs(fma(c->D[2], t, c->O[2])), .s = qn_super_look_at(c, t)};
+  end r = {.t = t, .z = fabs(qn_super_along(c, 2, t)), .s = qn_super_look_at(c, t)};
   r.sign = sign_of(&r.s);
   r.rho = pow(r.s.inner, 0.5 * c->n);
   if (r.s.inner > QN_SUPER_RATIO) {
@@ -160,36 +160,37 @@ static end end_at(const qn_super_line *c, double t) {
   return r;
 }
 
-/* Widened by the slopes' errors. */
-static qn_interval loose(double lo, double hi) {
-  return (qn_interval){lo - QN_SUPER_RATE * fabs(lo) - QN_SUPER_FADED, hi + QN_SUPER_RATE * fabs(hi) + QN_SUPER_FADED};
+/* Widened by the slopes' errors: rate of themselves. */
+static qn_interval loose(double lo, double hi, double rate) {
+  return (qn_interval){lo - rate * fabs(lo) - QN_SUPER_FADED, hi + rate * fabs(hi) + QN_SUPER_FADED};
 }
 
 /* Bounds of df/dt on the piece between two ends. */
 static qn_interval slopes(const qn_super_line *c, const end *a, const end *b) {
   double width = b->t - a->t, least = a->rho < b->rho ? a->rho : b->rho, most = a->rho < b->rho ? b->rho : a->rho;
+  double sure = QN_SUPER_RATE + (a->s.crude > b->s.crude ? a->s.crude : b->s.crude);
   qn_interval way;
   if (c->e <= 2) { /* rho is convex: its slope rises, and it is above its tangents */
     way = (qn_interval){a->way - a->way_error, b->way + b->way_error};
     if (way.lo < 0 && way.hi > 0) {
       double left = a->rho + way.lo * width, right = b->rho - way.hi * width;
-      least = (left > right ? left : right) - QN_SUPER_RATE * (most + width * (way.hi - way.lo));
+      least = (left > right ? left : right) - sure * (most + width * (way.hi - way.lo));
       least = least > 0 ? least : 0;
     }
   } else {
     way = (qn_interval){b->way - b->way_error, a->way + a->way_error};
     if (way.lo < 0 && way.hi > 0) {
       double left = a->rho + way.hi * width, right = b->rho - way.lo * width;
-      most = (left < right ? left : right) * (1 + QN_SUPER_RATE);
+      most = (left < right ? left : right) * (1 + sure);
     }
   }
   double f = pow(least, c->q - 1), g = pow(most, c->q - 1); /* 0^(q - 1) is infinite for q < 1 */
-  qn_interval factor = c->q < 1 ? loose(g, f) : loose(f, g), inner = qn_interval_mul(factor, way);
+  qn_interval factor = c->q < 1 ? loose(g, f, sure) : loose(f, g, sure), inner = qn_interval_mul(factor, way);
   if (c->D[2] == 0) {
     return qn_interval_mul(inner, (qn_interval){c->q, c->q});
   }
   double za = a->s.outer / a->z, zb = b->s.outer / b->z, rate = a->z < b->z ? fabs(c->D[2]) : -fabs(c->D[2]);
-  qn_interval outer = qn_interval_mul(za < zb ? loose(za, zb) : loose(zb, za), (qn_interval){rate, rate});
+  qn_interval outer = qn_interval_mul(za < zb ? loose(za, zb, sure) : loose(zb, za, sure), (qn_interval){rate, rate});
   return qn_interval_mul(qn_interval_add(inner, outer), (qn_interval){c->q, c->q});
 }
 
@@ -241,8 +242,8 @@ static int mixed(finder *f, double from, double to) {
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
-/* Places on either side of each coordinate plane that the line crosses in (a, b), where the coordinates' signs are certain (fma rounds
-   once). In increasing order; 0 when two planes are too close. */
+/* Places on either side of each coordinate plane that the line crosses in (a, b), where the coordinates' signs are certain. They are apart by little
+   enough that a pair of roots between them is none that S10 promises. In increasing order; 0 when two planes are too close. */
 static int cuts(const qn_super_line *c, double a, double b, double cut[3][2], size_t *count) {
   size_t n = 0;
   for (int i = 0; i < 3; i++) {
@@ -250,17 +251,11 @@ static int cuts(const qn_super_line *c, double a, double b, double cut[3][2], si
     if (d == 0) {
       continue;
     }
-    double t = -o / d, l = t - QN_SUPER_SHORT * c->size, h = t + QN_SUPER_SHORT * c->size; /* apart though t is 0: no power lost */
-    if (!between(a, t, b)) {
+    double t = -o / d, gap = QN_SUPER_GAP * c->size + 2 * QN_STEP * fabs(t), l = t - gap, h = t + gap;
+    if (h <= a || l >= b) {
       continue;
     }
-    for (int k = 0; k < 4 && fma(d, l, o) * d >= 0; k++) {
-      l = qn_step_down(l);
-    }
-    for (int k = 0; k < 4 && fma(d, h, o) * d <= 0; k++) {
-      h = qn_step_up(h);
-    }
-    if (fma(d, l, o) * d >= 0 || fma(d, h, o) * d <= 0) {
+    if (copysign(1, d) * qn_super_along(c, i, l) >= -c->off[i] || copysign(1, d) * qn_super_along(c, i, h) <= c->off[i]) {
       return 0;
     }
     if (!between(a, l, b) || !between(a, h, b)) {

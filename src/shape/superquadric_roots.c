@@ -1,40 +1,42 @@
 /* Roots of a superquadric along X(t) = O + t D, isolated with certainty and refined (design S10). In tiers, as for quadrics:
-   searches in doubles with error bounds, which may say that they cannot tell, then the careful one.
+   searches in doubles with error bounds, which may say that they cannot tell, then the careful one, with the exact line.
 
-   First the line is clipped: the solid lies in the box |X_i| <= 1, and outside the box's stretch [a, b] of the line, widened a
-   little, f > 1. With an exponent beyond 2 the solid lies in its hull, that of the exponent 2, and the stretch is narrowed to
+   First the line is clipped: the solid lies in the box |X_i| <= 1, and outside the stretch [a, b] of the line in a box a little larger
+   f > 1. With an exponent beyond 2 the solid lies in its hull, that of the exponent 2, and the stretch is narrowed to
    that. */
 #include "shape/interval.h"
 #include "shape/prim.h"
 #include "shape/super_line.h"
 
-/* The stretch of the line in the box |X_i| <= 1, widened so that its ends are outside for certain, where it has a width at all. */
-static int clip(const double O[3], const double D[3], double *a, double *b) {
+/* The stretch of the line in the box |X_i| <= 1 + m, m more than what roundings, the pairs and t's own last bits move X_i by at its ends
+   (docs/bounds.md, QN_SUPER_MARGIN). A coordinate whose speed is not known well enough for that is passed over. */
+int qn_super_clip(const qn_super_frame *f, double *a, double *b) {
   double lo = -INFINITY, hi = INFINITY;
   for (int i = 0; i < 3; i++) {
-    double o = O[i], d = fabs(D[i]);
+    double o = f->O[i][0], d = fabs(f->D[i][0]), m = QN_SUPER_MARGIN + 16 * QN_U * fabs(o) + 2 * f->O_off[i];
     if (d == 0) {
-      if (fabs(o) > 1) {
+      if (f->D_off[i] == 0 && fabs(o) > 1 + m) {
         return 0;
       }
       continue;
     }
-    o = D[i] < 0 ? -o : o;
-    double l = qn_step_down(qn_step_down(-1 - o) / d), h = qn_step_up(qn_step_up(1 - o) / d);
+    double spread = 2 * (fabs(o) + 2) * (f->D_off[i] / d);
+    if (!(spread < 1)) {
+      continue;
+    }
+    m += spread;
+    o = f->D[i][0] < 0 ? -o : o;
+    double l = ((-1 - m) - o) / d, h = ((1 + m) - o) / d;
     lo = l > lo ? l : lo;
     hi = h < hi ? h : hi;
   }
-  if (!(lo <= hi) || isinf(lo) || isinf(hi)) {
-    return 0;
-  }
-  double more = (hi - lo) * QN_SUPER_MARGIN;
-  *a = qn_step_down(lo - more);
-  *b = qn_step_up(hi + more);
-  return 1;
+  *a = lo, *b = hi;
+  return lo <= hi;
 }
 
-static qn_super_answer quick(const qn_super_line *c, double *a, double *b, double (*roots)[2], size_t max, size_t *count) {
-  if (c->e <= 2 && c->n <= 2) {
+static qn_super_answer quick(const qn_super_frame *frame, const qn_super_line *c, double *a, double *b, double (*roots)[2], size_t max,
+                             size_t *count) {
+  if (c->convex) {
     double found[2][2];
     qn_super_answer answer = qn_super_convex(c, *a, *b, found);
     for (*count = 0; answer == QN_SUPER_FOUND && *count < 2 && *count < max; ++*count) {
@@ -43,7 +45,14 @@ static qn_super_answer quick(const qn_super_line *c, double *a, double *b, doubl
     return answer;
   }
   qn_super_line hull;
-  if (!qn_super_line_make(fmin(c->e, 2), fmin(c->n, 2), c->O, c->D, &hull)) {
+  qn_super_frame around = *frame;
+  if (c->e > 2) {
+    around.e[0] = 2, around.e[1] = 0;
+  }
+  if (c->n > 2) {
+    around.n[0] = 2, around.n[1] = 0;
+  }
+  if (!qn_super_line_make(&around, *a, *b, &hull)) {
     return QN_SUPER_UNSURE;
   }
   if (qn_super_narrow(&hull, a, b) == QN_SUPER_NONE) {
@@ -52,19 +61,29 @@ static qn_super_answer quick(const qn_super_line *c, double *a, double *b, doubl
   return qn_super_pieces(c, *a, *b, roots, max, count);
 }
 
-size_t qn_superquadric_roots(double e, double n, const double O[3], const double D[3], double (*roots)[2], size_t max) {
+size_t qn_superquadric_roots(const qn_super_frame *frame, qn_super_ask ask, void *user, double (*roots)[2], size_t max) {
+  qn_super_exact exact;
+  qn_super_frame made;
+  int asked = frame == NULL;
+  if (asked) {
+    if (!ask(user, &exact)) {
+      return 0;
+    }
+    qn_super_frame_from_exact(&exact, &made);
+    frame = &made;
+  }
   double a, b;
-  if (!clip(O, D, &a, &b)) {
+  if (!qn_super_clip(frame, &a, &b)) {
     return 0;
   }
   qn_super_line c;
   size_t count = 0;
-  if (qn_super_line_make(e, n, O, D, &c)) {
-    switch (quick(&c, &a, &b, roots, max, &count)) {
+  if (isfinite(a) && isfinite(b) && qn_super_line_make(frame, a, b, &c)) {
+    switch (quick(frame, &c, &a, &b, roots, max, &count)) {
     case QN_SUPER_NONE: return 0;
     case QN_SUPER_FOUND: return count;
     case QN_SUPER_UNSURE: break;
     }
   }
-  return qn_super_careful(e, n, O, D, a, b, roots, max);
+  return asked || ask(user, &exact) ? qn_super_careful(&exact, roots, max) : 0;
 }

@@ -10,7 +10,7 @@ zero = 0;
   /\ @QN_WIDE_SHY_ROOT@ * @QN_WIDE_SHY_ROOT@ * @QN_WIDE_SHY@ - 1 in [0, 0]
   /\ @QN_WIDE_SPOT@ - 4 * u >= 0
   /\ @QN_POINT_BOX_SLACK@ - (1 + 2 * u) / (1 - u) * (1 + u) * (1 + u) >= 0
-  /\ @QN_SUPER_NORM(1,1)@ - 13 * u >= 0                                            # (1 + 4 + 2e + 4 + 2n) u
+  /\ @QN_SUPER_NORM(1,1)@ - 14 * u >= 0                                            # (2 + 4 + 2e + 4 + 2n) u
   /\ @QN_ROUND_EVAL@ - 171 * u * u >= 0 /\ @QN_ROUND_PAIR_EVAL@ - 246 * u * u >= 0 # the counts of the section
   /\ @QN_ROUND_SLOPE@ - 21 * u >= 0
   /\ @QN_PRINT_CELL@ - 8 * @QN_PRINT_ERROR@ in [0, 0] }

@@ -288,6 +288,30 @@ static void barr_slope(mpfr_t out, mpfr_t all, double e, double n, mpfr_t X[3], 
   mpfr_clears(g[0], g[1], g[2], A, t, (mpfr_ptr)NULL);
 }
 
+/* A line whose numbers are doubles: exactly, and as a frame. */
+typedef struct given { bench *b; double e, n; const double *O, *D; } given;
+static int exactly(void *user, qn_super_exact *out) {
+  const given *g = user;
+  qn_ctx *ctx = &g->b->ctx;
+  *out = (qn_super_exact){.ctx = ctx, .e = qn_num_from_double(ctx, g->e), .n = qn_num_from_double(ctx, g->n)};
+  for (int i = 0; i < 3; i++) {
+    out->O[i] = qn_num_from_double(ctx, g->O[i]), out->D[i] = qn_num_from_double(ctx, g->D[i]);
+  }
+  return 1;
+}
+static size_t all_roots(bench *b, double e, double n, const double O[3], const double D[3], double (*roots)[2], size_t max) {
+  given g = {b, e, n, O, D};
+  return qn_superquadric_roots(NULL, exactly, &g, roots, max);
+}
+static int line_make(bench *b, double e, double n, const double O[3], const double D[3], double from, double to, qn_super_line *out) {
+  given g = {b, e, n, O, D};
+  qn_super_exact x;
+  qn_super_frame frame;
+  exactly(&g, &x);
+  qn_super_frame_from_exact(&x, &frame);
+  return qn_super_line_make(&frame, from, to, out);
+}
+
 static double line_exponent(bench *b) {
   static const double halves[] = {0.25, 0.5, 0.8, 1, 2, 4, 8, 0.125, 0.0625, 0.4, 0.2};
   return below(b, 2) ? halves[below(b, 11)] : below(b, 4) ? real(b, 0.1, 2) : below(b, 2) ? real(b, 2, 8) : below(b, 2) ? real(b, QN_SUPER_LEAST, 0.1) : real(b, QN_SUPER_LEAST, 0.01);
@@ -325,7 +349,7 @@ static void line_is_within_its_error(void **state) {
       O[i] = X[i] - t * D[i];
     }
     qn_super_line c, finer;
-    if (!qn_super_line_make(e, n, O, D, &c)) {
+    if (!line_make(b, e, n, O, D, 0, t, &c)) {
       assert_true(D[0] == 0 && D[1] == 0 && D[2] == 0);
       continue;
     }
@@ -366,11 +390,113 @@ static void line_is_within_its_error(void **state) {
   mpfr_free_cache();
 }
 
+/* QN_SUPER_FRAME: rows and lines of random exact numbers, near the pivot and far from it. QN_SUPER_LOW and QN_SUPER_CRUDE: f along such a line, both tiers,
+   near the coordinate planes too, against the exact line in 300 bits. */
+static void frames_are_within_their_error(void **state) {
+  bench *b = *state;
+  mpfr_t truth, difference, Y[3];
+  mpfr_inits2(300, truth, difference, Y[0], Y[1], Y[2], (mpfr_ptr)NULL);
+  double worst[2] = {0, 0};
+  int exact = 0, close = 0, given_up = 0, crude = 0;
+  for (int round = 0; round < 6000; round++) {
+    qn_mark mark = qn_arena_mark(&b->ctx.arena);
+    qn_super_rows rows;
+    qn_num row[3][4], o[3], d[3], zero = QN_NUM_ZERO;
+    double x[3], v[3], e = line_exponent(b), n = line_exponent(b), t = real(b, 0.5, 2);
+    int dyadic = below(b, 3) == 0, turned = below(b, 2), far = below(b, 4) ? 3 : 40;
+    if ((e == 1 && n == 1) || e > QN_SUPER_QUOTIENT * n || (e == 2 || n == 2)) {
+      continue;
+    }
+    for (int j = 0; j < 3; j++) {
+      rows.pivot[j] = ldexp(below(b, 2001) - 1000, -below(b, 8));
+      v[j] = below(b, 6) ? (dyadic ? ldexp(below(b, 65) - 32, -4) : real(b, -1, 1)) : 0;
+      x[j] = rows.pivot[j] - t * v[j] + ldexp(real(b, -1, 1), below(b, far));
+      x[j] = dyadic ? ldexp(rint(ldexp(x[j], 8)), -8) : x[j];
+      o[j] = qn_num_from_double(&b->ctx, x[j]);
+      d[j] = qn_num_from_double(&b->ctx, v[j]);
+    }
+    qn_super_exact line = {.ctx = &b->ctx, .e = qn_num_from_double(&b->ctx, e), .n = qn_num_from_double(&b->ctx, n)};
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 4; j++) {
+        qn_num r = dyadic ? qn_num_from_double(&b->ctx, ldexp(below(b, 17) - 8, -3)) : ratio(b, 1000, 1 + below(b, 999));
+        row[i][j] = i == j || turned || j == 3 ? r : zero;
+        qn_num_to_dd(&b->ctx, row[i][j], &rows.row[i][j][0], &rows.row[i][j][1]);
+      }
+      qn_num at = row[i][3];
+      line.D[i] = zero;
+      for (int j = 0; j < 3; j++) {
+        at = ADD(at, MUL(row[i][j], SUB(o[j], qn_num_from_double(&b->ctx, rows.pivot[j]))));
+        line.D[i] = ADD(line.D[i], MUL(row[i][j], d[j]));
+      }
+      line.O[i] = at;
+    }
+    qn_super_frame frame, near;
+    qn_super_rows_finish(&rows);
+    qn_num_to_dd(&b->ctx, line.e, &rows.e[0], &rows.e[1]);
+    qn_num_to_dd(&b->ctx, line.n, &rows.n[0], &rows.n[1]);
+    if (qn_super_frame_make(&rows, x, v, &frame)) {
+      for (int k = 0; k < 6; k++) {
+        const double *pair = k < 3 ? frame.O[k] : frame.D[k - 3];
+        double off = k < 3 ? frame.O_off[k] : frame.D_off[k - 3];
+        qn_num rest = SUB(SUB(k < 3 ? line.O[k] : line.D[k - 3], qn_num_from_double(&b->ctx, pair[0])), qn_num_from_double(&b->ctx, pair[1]));
+        assert_true(fabs(qn_num_to_double(rest)) <= off);
+        worst[0] = off > 0 ? fmax(worst[0], fabs(qn_num_to_double(rest)) / off) : worst[0];
+        exact += off == 0;
+      }
+    }
+    /* the line moved so that at t it is next to the surface, and at times a coordinate of it next to 0; then pairs with a greater error than they have */
+    double X[3], error;
+    for (int i = 0; i < 3; i++) {
+      X[i] = real(b, -1, 1);
+    }
+    double s = pow(qn_superquadric_value(e, n, X, &error) + 1, -0.5 * n);
+    for (int i = 0; i < 3; i++) {
+      X[i] = below(b, 4) ? X[i] * s : ldexp(real(b, -1, 1), -below(b, 100));
+      X[i] = fmax(-1, fmin(1, X[i]));
+      line.O[i] = SUB(qn_num_from_double(&b->ctx, X[i]), MUL(line.D[i], qn_num_from_double(&b->ctx, t)));
+    }
+    qn_super_frame_from_exact(&line, &frame);
+    near = frame;
+    double off[3];
+    for (int i = 0; i < 3; i++) {
+      off[i] = below(b, 3) ? ldexp(1, -90 - below(b, 15)) : 0;
+      near.O_off[i] = off[i] + frame.O_off[i];
+    }
+    qn_super_line c[2];
+    if (qn_super_line_make(&near, 0, t, &c[0]) && qn_super_finer(&c[0], &c[1])) {
+      for (int i = 0; i < 3; i++) { /* the truth at the far end of what the errors allow */
+        mpfr_set_d(Y[i], X[i], MPFR_RNDN);
+        mpfr_set_d(difference, below(b, 2) ? off[i] : -off[i], MPFR_RNDN);
+        mpfr_add(Y[i], Y[i], difference, MPFR_RNDN);
+      }
+      barr_at(truth, e, n, Y);
+      for (int tier = 0; tier < 2; tier++) {
+        qn_super_look look = qn_super_look_at(&c[tier], t);
+        if (!isfinite(look.error)) {
+          given_up++;
+          continue;
+        }
+        mpfr_sub_d(difference, truth, look.over, MPFR_RNDN);
+        double is = fabs(mpfr_get_d(difference, MPFR_RNDA));
+        assert_true(is <= look.error);
+        worst[1] = fmax(worst[1], is / look.error);
+        close += fabs(look.over) < 1e-10;
+        crude += look.crude > 0x1p-20;
+      }
+    }
+    qn_arena_release(&b->ctx.arena, mark);
+  }
+  assert_true(exact > 2000 && close > 500 && given_up > 50 && crude > 20);
+  assert_true(worst[0] > 0.005 && worst[0] < 1 && worst[1] > 0.1);
+  mpfr_clears(truth, difference, Y[0], Y[1], Y[2], (mpfr_ptr)NULL);
+  mpfr_free_cache();
+}
+
 enum { MAX = 64 };
 
 /* Checks the enclosures' order and the certain sign at their ends; gives the count. */
 static size_t checked_roots(bench *b, double e, double n, const double O[3], const double D[3], double roots[MAX][2]) {
-  size_t count = qn_superquadric_roots(e, n, O, D, roots, MAX);
+  size_t count = all_roots(b, e, n, O, D, roots, MAX);
   assert_true(count < MAX && count % 2 == 0);
   for (size_t i = 0; i < count; i++) {
     int before = i % 2 ? -1 : 1;
@@ -515,19 +641,17 @@ static void tiers_agree(void **state) {
       }
       grazes++;
     }
-    double a = -INFINITY, c = INFINITY, quick[MAX][2], careful[MAX][2];
-    for (int i = 0; i < 3; i++) { /* the box, and more */
-      if (D[i] != 0) {
-        a = fmax(a, (-1.0001 - O[i] * copysign(1, D[i])) / fabs(D[i]));
-        c = fmin(c, (1.0001 - O[i] * copysign(1, D[i])) / fabs(D[i]));
-      }
-    }
-    if (a < c) {
-      size_t more = qn_super_careful(e, n, O, D, a, c, careful, MAX);
+    double a, c, quick[MAX][2], careful[MAX][2];
+    qn_super_exact exact;
+    qn_super_frame frame;
+    exactly(&(given){b, e, n, O, D}, &exact);
+    qn_super_frame_from_exact(&exact, &frame);
+    if (qn_super_clip(&frame, &a, &c)) {
+      size_t more = qn_super_careful(&exact, careful, MAX);
       qn_super_line line;
       size_t count = 0;
       qn_super_answer answer;
-      assert_true(qn_super_line_make(e, n, O, D, &line));
+      assert_true(qn_super_line_make(&frame, a, c, &line));
       double t0 = a, t1 = c;
       if (e <= 2 && n <= 2) {
         answer = qn_super_convex(&line, t0, t1, quick);
@@ -535,7 +659,7 @@ static void tiers_agree(void **state) {
       } else {
         answer = qn_super_pieces(&line, t0, t1, quick, MAX, &count);
         qn_super_line hull; /* the narrowed stretch keeps every root */
-        assert_true(qn_super_line_make(fmin(e, 2), fmin(n, 2), O, D, &hull));
+        assert_true(line_make(b, fmin(e, 2), fmin(n, 2), O, D, a, c, &hull));
         if (qn_super_narrow(&hull, &t0, &t1) == QN_SUPER_NONE) {
           assert_int_equal(more, 0);
         } else {
@@ -573,7 +697,7 @@ static void known_roots(void **state) {
   assert_int_equal(checked_roots(b, 0.5, 0.5, O, D, roots), 2);
   assert_true(roots[0][0] < 4 && 4 < roots[0][1] && roots[1][0] < 6 && 6 < roots[1][1]);
   double side_on[3] = {-5, 1, 0.25}; /* grazes the flat side's bulge: |y| = 1 is met at x = z = 0 only */
-  assert_int_equal(qn_superquadric_roots(0.5, 0.5, side_on, D, roots, MAX), 0);
+  assert_int_equal(all_roots(b, 0.5, 0.5, side_on, D, roots, MAX), 0);
   double beside[3] = {-5, 0.5, 0.5}, away[3] = {0, 1, 0};
   assert_int_equal(checked_roots(b, 0.5, 0.5, beside, away, roots), 0);
   /* astroid-like sections: a chord through one arm, one across two arms, which leaves the solid between them */
@@ -582,8 +706,8 @@ static void known_roots(void **state) {
   double arms[3] = {-2, 1.3, 0}, slope[3] = {1, -0.5, 0}; /* y = 0.3 - x/2 */
   assert_int_equal(checked_roots(b, 5, 1, arms, slope, roots), 4);
   double parallel[3] = {0, 0, 5}, none[3] = {0, 0, 0};
-  assert_int_equal(qn_superquadric_roots(0.5, 0.5, parallel, none, roots, MAX), 0);
-  assert_int_equal(qn_superquadric_roots(0.5, 0.5, O, D, roots, 1), 1);
+  assert_int_equal(all_roots(b, 0.5, 0.5, parallel, none, roots, MAX), 0);
+  assert_int_equal(all_roots(b, 0.5, 0.5, O, D, roots, 1), 1);
 }
 
 /* Support: above every sampled point of the surface, and close to the highest. */
@@ -629,6 +753,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(exact_exponents, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(signs, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(line_is_within_its_error, setup_bench, teardown_bench),
+    cmocka_unit_test_setup_teardown(frames_are_within_their_error, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(known_roots, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(roots_bracket_the_sign, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(grazing, setup_bench, teardown_bench),
