@@ -7,8 +7,8 @@
    1. e, n <= 2: G is a norm, so convex along the line: none or two roots. The minimum is bracketed by the sign of the slope
       until a point inside is found, or the tangent's lower bound is positive, or the bracket is narrow.
    2. Else: the places where the line meets a coordinate plane divide it into pieces on each of which |X_i| is linear. A piece
-      [c, d] is settled when G over the corners of its box (G grows with each |X_i|) is above 1 or below it, or when its slope
-      is of one sign; else it is halved, down to QN_SUPER_NARROW of the solid's size. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X|
+      [c, d] is settled when G over the corners of its box (G grows with each |X_i|) is above 1 or below it, when its slope
+      is of one sign, or when the lines from its ends with the steepest slopes do not reach 1; else it is halved, down to QN_SUPER_NARROW of the solid's size. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X|
       + phi_p(X/Y) d|Y|) + phi_q(rho/Z) d|Z|, each phi monotone.
    What comes out is a list of places with certain signs in increasing order; two neighbours of different signs bracket a root.
    3. Refinement: Newton from one end, kept in the bracket, halving it when a step does not; then the bracket is closed from
@@ -18,7 +18,7 @@
 #include "shape/prim.h"
 #include "shape/super_line.h"
 
-enum { MOST_NODES = 4000, STACK = 256, MOST_SIGNS = 256 };
+enum { MOST_NODES = 40000, STACK = 256, MOST_SIGNS = 256 };
 
 typedef struct curve {
   qn_super s;
@@ -306,6 +306,18 @@ static qn_interval scaled(qn_interval a, const curve *c, int i, int way) {
 
 typedef enum verdict { SPLIT, ABOVE, BELOW, MONOTONE } verdict;
 
+/* Two lines from the ends, with the steepest slopes, bound G from either side. */
+static verdict by_ends(const curve *c, double a, double b, qn_interval slope) {
+  sample from = look(c, a), to = look(c, b);
+  int sign = sample_sign(from);
+  if (!sign || sign != sample_sign(to) || !(slope.hi - slope.lo < INFINITY) || !isfinite(from.value) || !isfinite(to.value)) {
+    return SPLIT;
+  }
+  double near = fabs(from.value) - from.error, far = fabs(to.value) - to.error, lo = sign > 0 ? slope.lo : -slope.hi, hi = sign > 0 ? slope.hi : -slope.lo;
+  double most = near * hi - far * lo, bend = lo * hi * (b - a); /* where the lines meet: sign G is at least (most + bend)/(hi - lo); bend < 0 */
+  return most + bend > 16 * QN_U * (most - bend) ? (sign > 0 ? ABOVE : BELOW) : SPLIT;
+}
+
 static verdict judge(const curve *c, double a, double b) {
   qn_interval x[3];
   double lo[3], hi[3], g[3], error;
@@ -342,7 +354,7 @@ static verdict judge(const curve *c, double a, double b) {
   qn_interval dx = scaled(slope_range(e, p, sure_e, x[0], x[1]), c, 0, way[0]), dy = scaled(slope_range(e, p, sure_e, x[1], x[0]), c, 1, way[1]);
   qn_interval flat = qn_interval_mul(slope_range(n, q, sure_n, rho, x[2]), qn_interval_add(dx, dy));
   qn_interval slope = qn_interval_add(flat, scaled(slope_range(n, q, sure_n, x[2], rho), c, 2, way[2]));
-  return slope.lo > 0 || slope.hi < 0 ? MONOTONE : SPLIT;
+  return slope.lo > 0 || slope.hi < 0 ? MONOTONE : by_ends(c, a, b, slope);
 }
 
 static void settle(curve *c, double a, double b, places *p) {

@@ -132,6 +132,59 @@ static void open_solid(ask *a, const solid *s) {
   ask_open(a, text);
 }
 
+/* The sign of f - 1 at t, to 400 bits. */
+static int sign_at(const solid *s, const double o[3], const double d[3], double t) {
+  mpq_t c, r, x, y;
+  mpq_inits(c, r, x, y, NULL);
+  mpfr_t p[2], X[3], ratio;
+  mpfr_inits2(BITS, p[0], p[1], X[0], X[1], X[2], ratio, (mpfr_ptr)NULL);
+  for (int k = 0; k < 2; k++) {
+    decimal(c, k ? s->n : s->e);
+    mpfr_set_q(ratio, c, MPFR_RNDN);
+    mpfr_ui_div(p[k], 2, ratio, MPFR_RNDN);
+  }
+  for (int i = 0; i < 3; i++) { /* |X_i| to its power */
+    decimal(c, s->centre[i]);
+    decimal(r, s->radius[i]);
+    mpq_set_d(x, t);
+    mpq_set_d(y, d[i]);
+    mpq_mul(x, x, y);
+    mpq_set_d(y, o[i]);
+    mpq_add(x, x, y);
+    mpq_sub(x, x, c);
+    mpq_div(x, x, r);
+    mpfr_set_q(X[i], x, MPFR_RNDN);
+    power(X[i], X[i], p[i == 2]);
+  }
+  mpfr_add(X[0], X[0], X[1], MPFR_RNDN);
+  mpfr_div(ratio, p[1], p[0], MPFR_RNDN);
+  mpfr_pow(X[0], X[0], ratio, MPFR_RNDN);
+  mpfr_add(X[0], X[0], X[2], MPFR_RNDN);
+  int sign = mpfr_cmp_ui(X[0], 1);
+  mpfr_clears(p[0], p[1], X[0], X[1], X[2], ratio, (mpfr_ptr)NULL);
+  mpq_clears(c, r, x, y, NULL);
+  return sign;
+}
+
+/* A gap of 2^-19 between two stretches, nearly a tangent: the search for it ended before it was found. */
+static void gap(void **state) {
+  (void)state;
+  const solid s = {{"-5", "-1.5", "0"}, {"0.01", "3.98", "3.60"}, "1.9", "8"};
+  const quoin_ray ray = {{-4.9906176571252709, -3.7207982005882316, -5.2436101539446884}, {-0.0033848385355713644, 0.82305555699640209, 2.1195183452422079}, -INFINITY, INFINITY};
+  const double places[7] = {2.43, 2.48, 2.6, 2.70708, 2.70733454, 2.75, 2.78};
+  ask a;
+  open_solid(&a, &s);
+  quoin_intervals found;
+  assert_int_equal(quoin_ray_intervals(a.scene, a.work, &ray, 0, &found), QUOIN_OK);
+  assert_int_equal(found.count, 3);
+  for (size_t i = 0; i < 7; i++) {
+    assert_true(i % 2 ? sign_at(&s, ray.o, ray.d, places[i]) < 0 : sign_at(&s, ray.o, ray.d, places[i]) > 0);
+    assert_true(i == 0 || (i % 2 ? found.inside[i / 2].enter.t < places[i] : found.inside[i / 2 - 1].leave.t < places[i]));
+    assert_true(i == 6 || (i % 2 ? found.inside[i / 2].leave.t > places[i] : found.inside[i / 2].enter.t > places[i]));
+  }
+  ask_close(&a);
+}
+
 /* The ray that was answered as a miss: z/1.3 - 1 is -8.5e-18, the stretch 2^-13 of the solid. */
 static void known(void **state) {
   (void)state;
@@ -182,7 +235,7 @@ static void poles(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(poles)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(gap), cmocka_unit_test(poles)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   mpfr_free_cache();
   return failed;
