@@ -4,7 +4,7 @@
 #include "grammar.hpp"
 
 namespace stress {
-struct Line { V o, d; int kind; double t; }; // t: about where the spot is; NaN where it is not met
+struct Line { V o, d; int kind; double t; const Spot *spot; }; // t: about where the spot is; NaN where it is not met
 enum Aim { Tangent, NearTangent, Along, Parallel, At, TwoSpots, Far, Axis, Scaled, Random_, Gap, Aims };
 static const char *const AIMS[Aims] = {"tangent", "near-tangent", "along", "parallel", "at a spot", "two spots", "far", "axis", "scaled", "random", "gap as wide as bounds"};
 
@@ -94,7 +94,7 @@ inline bool aim(Random &r, const std::vector<const Spot *> &spots, const std::ve
     Q back = r.chance(50) ? Q(r.range(1, 50)) / Q(4) : pow2(r.range(-3, 6));
     p = p - back * d, t = CGAL::to_double(back);
   }
-  out = {p, d, kind, kind == Far || kind == Random_ || kind == Parallel || kind == NearTangent ? NAN : t};
+  out = {p, d, kind, kind == Far || kind == Random_ || kind == Parallel || kind == NearTangent ? NAN : t, &s};
   return is_decimal(p[0]) && is_decimal(p[1]) && is_decimal(p[2]);
 }
 

@@ -233,6 +233,12 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     for (int i = 0; i < side; i++)
       for (int j = 0; j < std::max(1, n / side); j++) k.push_back(moved({Q(i) * a, Q(j) * a, r.chance(90) ? Q(0) : a_gap(r, st)}, s));
     Spec all = gate(Node::Union, k);
+    for (int i = 0; i < 3; i++) { // between neighbours, at half their height or that of their centres
+      V at{Q(r.range(0, side - 2)) * a + a / 2, Q(r.range(0, side - 1)) * a, 0};
+      if (s.shape.kind == Shape::Cube) at = at + V{a / 2, a / 2, a / 2};
+      else if (s.shape.kind == Shape::Cylinder) at = at + V{0, 0, a / 2};
+      all.contacts.push_back({Spot::Smooth, at, V{1, 0, 0}, V{0, 0, s.shape.kind == Shape::Sphere ? Q(0) : Q(1)}});
+    }
     return r.chance(50) ? all : gate(Node::Difference, {moved({-a, -a, 0}, simple(Shape::Cube, {Q(side + 2) * a, Q(side + 2) * a, a})), all});
   }
   case 7: { // thin shells
@@ -253,7 +259,11 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     std::vector<Spec> k{simple(Shape::Sphere, {a}), moved((far + a_gap(r, st)) * u, simple(Shape::Sphere, {b}))};
     if (n > 2) k.push_back(moved(V{a + c, 0, -c}, simple(Shape::Cylinder, {2 * c, c})));
     if (n > 3) k.push_back(moved(V{-a - b, 0, 0}, simple(Shape::Sphere, {b})));
-    return gate(an_op(r), k);
+    Spec s = gate(an_op(r), k);
+    s.contacts.push_back({Spot::Smooth, a * u, u, V{0, 0, 0}});
+    if (n > 2) s.contacts.push_back({Spot::Generator, V{a, 0, 0}, V{1, 0, 0}, V{0, 0, 1}});
+    if (n > 3) s.contacts.push_back({Spot::Smooth, V{-a, 0, 0}, V{1, 0, 0}, V{0, 0, 0}});
+    return s;
   }
   case 10: { // sheets on one line: a double cone's generator, with planes and other surfaces that hold it, many of them tangent
     static const int g[][3] = {{1, 0, 1}, {0, 1, 1}, {3, 4, 5}, {-4, 3, 5}};
@@ -378,7 +388,7 @@ inline Spec in_frame(Random &r, const Style &st, Spec s, std::string &frame) {
   auto power = [&](int ten) { return st.dyadic ? pow2(ten * 10 / 3) : pow10(ten); };
   auto decades = [](int ten) { return ten < -6 ? "1e-9 to 1e-7" : ten < -3 ? "1e-6 to 1e-4" : ten < 0 ? "1e-3 to 1e-1" : ten < 4 ? "1 to 1e3" : ten < 7 ? "1e4 to 1e6" : ten < 10 ? "1e7 to 1e9" : "1e10 to 1e12"; };
   int ten;
-  switch (r.below(12)) {
+  switch (r.below(13)) {
   case 0: { ten = r.range(-9, 9); Q f = power(ten); scale({f, f, f}); st.note("size", decades(ten)), frame = "scaled"; break; }
   case 1: { ten = r.range(1, 9); V v{1, 1, 1}; v[r.below(3)] = power(-ten); scale(v); st.note("aspect", decades(ten)), frame = "flat"; break; }
   case 2: { ten = r.range(1, 9); V v{1, 1, 1}; v[r.below(3)] = power(ten); scale(v); st.note("aspect", decades(ten)), frame = "long"; break; }
@@ -393,6 +403,18 @@ inline Spec in_frame(Random &r, const Style &st, Spec s, std::string &frame) {
   }
   case 5: s = around(a_turn(r), s), frame = "turned"; break;
   case 6: s = around(a_step(r, st), around(a_turn(r), s)), frame = "turned and mapped"; break;
+  case 7: { // all at once
+    ten = r.range(-9, 9);
+    Q f = power(ten);
+    int thin = r.range(-9, 9);
+    V v{f, f, f};
+    v[r.below(3)] = f * power(thin);
+    scale(v);
+    st.note("size", decades(ten)), st.note("aspect", decades(std::abs(thin)));
+    s = around(a_turn(r), s), ten = r.range(0, 12);
+    s = moved(along_axis(r.below(3), power(ten)), s), st.note("distance", decades(ten)), frame = "scaled, stretched, turned and far";
+    break;
+  }
   default: frame = "none"; break;
   }
   st.note("frame", frame);

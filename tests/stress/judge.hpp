@@ -173,6 +173,7 @@ struct Bench { // one model and its judges
   Spec spec;
   std::string text;
   std::vector<Ball> balls;
+  std::vector<Spot> contacts;
   Node solid;
   Surfaces surfaces;
   Quick quick;
@@ -180,16 +181,18 @@ struct Bench { // one model and its judges
   Work sse2, avx2, avx512;
   std::vector<const Spot *> spots;
   quoin_work *work(int isa) const { return (isa == 0 ? sse2 : isa == 1 ? avx2 : avx512).work; }
-  static Node build(const Spec &s, uint64_t seed, std::vector<Ball> &b) {
+  static Node build(const Spec &s, uint64_t seed, std::vector<Ball> &b, std::vector<Spot> &c) {
     Random r(seed);
-    return node_of(s, Map(), r, b);
+    return node_of(s, Map(), r, b, &c);
   }
   Bench(const Spec &s, uint64_t seed)
-      : spec(s), text(text_of(s)), solid(build(s, seed, balls)), surfaces(solid), quick(solid, surfaces, balls), model(text), sse2(model, 0), avx2(model, 1), avx512(model, 2) {
+      : spec(s), text(text_of(s)), solid(build(s, seed, balls, contacts)), surfaces(solid), quick(solid, surfaces, balls), model(text), sse2(model, 0), avx2(model, 1), avx512(model, 2) {
     std::vector<const Leaf *> leaves;
     collect(solid, leaves);
     for (auto *l : leaves)
       for (auto &p : l->spots) spots.push_back(&p);
+    for (auto &p : contacts)
+      for (int k = 0; k < 3; k++) spots.push_back(&p); // few among many
   }
   Bench(const Bench &) = delete;
 

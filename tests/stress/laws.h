@@ -53,7 +53,8 @@ void clear_text(text *t);
 
 void keep(said *to, quoin_status status, const quoin_intervals *got);
 void ask_one(const scene *s, const quoin_ray *ray, said *out);
-void ask_decimals(const scene *s, const quoin_ray *ray, int ten, const char *const add[3], said *out); /* the ray times 10^ten; see laws_places.c */
+/* The ray times a decimal, and moved by three (null: none), asked as decimals. */
+void ask_decimals(const scene *s, const quoin_ray *ray, const char *times, const char *const add[3], said *out);
 enum { SAME_T = 0, SAME_PARTS = 1 };
 /* Blames when the two differ. what: of which ray. */
 int alike(trial *t, const said *a, const said *b, int parts, const char *what, const quoin_ray *ray);

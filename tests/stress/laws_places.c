@@ -4,7 +4,7 @@
 
 #include <gmp.h>
 
-/* The exact decimal of v 10^ten + add (a decimal, or null) into a text of its own; freed by the caller. */
+/* The exact decimal of v into a text of its own; freed by the caller. */
 static char *decimal_of(const mpq_t v) {
   mpz_t n, d;
   mpz_inits(n, d, NULL);
@@ -64,13 +64,11 @@ static void read_decimal(mpq_t out, const char *s) { /* digits with a point and 
   mpq_clear(p);
   mpz_clears(n, ten, NULL);
 }
-static char *number(double v, int ten, const char *add) {
+static char *number(double v, const char *times, const char *add) {
   mpq_t q, p;
-  char power[40];
   mpq_inits(q, p, NULL);
   mpq_set_d(q, v);
-  snprintf(power, sizeof power, "1e%d", ten);
-  read_decimal(p, power);
+  read_decimal(p, times);
   mpq_mul(q, q, p);
   if (add) {
     read_decimal(p, add);
@@ -81,14 +79,14 @@ static char *number(double v, int ten, const char *add) {
   return out;
 }
 
-void ask_decimals(const scene *s, const quoin_ray *ray, int ten, const char *const add[3], said *out) {
+void ask_decimals(const scene *s, const quoin_ray *ray, const char *times, const char *const add[3], said *out) {
   char *t[8] = {0};
   for (int i = 0; i < 3; i++) {
-    t[i] = number(ray->o[i], ten, add ? add[i] : NULL);
-    t[3 + i] = number(ray->d[i], ten, NULL);
+    t[i] = number(ray->o[i], times, add ? add[i] : NULL);
+    t[3 + i] = number(ray->d[i], times, NULL);
   }
-  t[6] = isfinite(ray->from) ? number(ray->from, 0, NULL) : NULL;
-  t[7] = isfinite(ray->to) ? number(ray->to, 0, NULL) : NULL;
+  t[6] = isfinite(ray->from) ? number(ray->from, "1", NULL) : NULL;
+  t[7] = isfinite(ray->to) ? number(ray->to, "1", NULL) : NULL;
   quoin_intervals got;
   quoin_status status = quoin_ray_intervals_text(s->scene, s->work, (const char *const *)t, t[6], t[7], QUOIN_WANT_BOUNDARY, &got);
   keep(out, status, &got);
@@ -202,11 +200,14 @@ static void decimals(trial *t) {
   dice d = {t->seed};
   char wrap[200], add[3][40];
   const char *to[3] = {add[0], add[1], add[2]};
-  int ten = chance(&d, 50) ? 0 : from_to(&d, -12, 9);
+  char times[40] = "1";
+  if (chance(&d, 70)) {
+    snprintf(times, sizeof times, "%d.%de%d", chance(&d, 50) ? 1 : from_to(&d, 1, 9), chance(&d, 50) ? 0 : from_to(&d, 0, 9999), from_to(&d, -12, 9));
+  }
   for (int i = 0; i < 3; i++) {
     snprintf(add[i], sizeof *add, "%d.%d", from_to(&d, -300, 300), from_to(&d, 0, 99999));
   }
-  snprintf(wrap, sizeof wrap, "translate([%s,%s,%s]) scale(1e%d)", add[0], add[1], add[2], ten);
+  snprintf(wrap, sizeof wrap, "translate([%s,%s,%s]) scale(%s)", add[0], add[1], add[2], times);
   clear_text(&t->first);
   clear_text(&t->second);
   tree_put(&t->first, t->tree, NULL);
@@ -219,7 +220,7 @@ static void decimals(trial *t) {
     for (size_t i = 0; i < t->n && !t->wrong; i++) {
       said x, y;
       ask_one(&a, &t->rays[i], &x);
-      ask_decimals(&b, &t->rays[i], ten, to, &y);
+      ask_decimals(&b, &t->rays[i], times, to, &y);
       alike(t, &x, &y, SAME_T, "moved and scaled by decimals", &t->rays[i]);
     }
     t->asked += 2 * t->n;

@@ -102,7 +102,7 @@ static void batching(trial *t) {
   for (size_t i = 0; i < t->n && !t->wrong; i++) {
     said woven;
     ask_one(&s, &t->rays[i], &alone[i]);
-    ask_decimals(&s, &t->rays[i], 0, NULL, &woven);
+    ask_decimals(&s, &t->rays[i], "1", NULL, &woven);
     alike(t, &woven, &alone[i], SAME_PARTS, "as decimals against as doubles", &t->rays[i]);
     quoin_hit want, got;
     hit_of(&alone[i], &want);

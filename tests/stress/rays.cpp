@@ -20,6 +20,7 @@ struct Options {
   bool census = false, once = false, undecided = false;
 };
 
+static const char *const SPOTS[] = {"smooth place", "rim", "apex", "edge", "corner", "face", "generator"};
 static const char *const SIDES[] = {"outside", "boundary", "inside"};
 
 static void found(Totals &t, const Options &o, Case c, uint64_t model_seed, const char *what) {
@@ -138,6 +139,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     return;
   }
   t.models++, t.leaves += leaves_of(spec);
+  if (!gaps.empty()) t.census.count("gaps_in_frame", frame);
   std::vector<Ray> rays;
   int bundles = r.range(16, 48); // a model costs as much as a thousand rays
   const bool wide = o.motif == Style::Wide; // bounds are a packet's: many packets of few rays
@@ -158,6 +160,8 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     auto replies = ask_rays(b->model, b->work(isa), rays, way);
     t.asking += now() - t0;
     t.census.count("bundle", BUNDLES[kind], n), t.census.count("way", WAYS[way], n), t.census.count("aim", AIMS[line.kind], n), t.census.count("isa", ISAS[isa], n);
+    const bool contact = line.spot >= b->contacts.data() && line.spot < b->contacts.data() + b->contacts.size();
+    t.census.count("spot", contact ? "contact" : SPOTS[line.spot->kind], n);
     Ulps *const ulps[2] = {&t.census.ends[std::string("aim ") + AIMS[line.kind]], &t.census.ends["frame " + frame]};
     bool aimed = false; // the exact judge, at the present ray
     for (size_t i = 0; i < n; i++) {

@@ -31,6 +31,7 @@ struct Spec {
   Shape shape;
   std::vector<Step> steps; // the outermost first
   std::vector<Spec> kids;
+  std::vector<Spot> contacts; // of a gate: where its parts touch
 };
 
 inline Map map_of(const Step &s) {
@@ -326,14 +327,19 @@ inline Map placement(const Shape &s) {
   return m;
 }
 
-// The oracle's tree; balls: one for each leaf, in order. r draws the spots.
-inline Node node_of(const Spec &s, const Map &around, Random &r, std::vector<Ball> &balls) {
+// The oracle's tree; balls: one for each leaf, in order; contacts: where parts touch, is added to. r draws the spots.
+inline Node node_of(const Spec &s, const Map &around, Random &r, std::vector<Ball> &balls, std::vector<Spot> *contacts = nullptr) {
   Map m = around;
   for (auto &k : s.steps) m = compose(m, map_of(k));
   Node n;
   n.op = s.op;
   if (s.op != Node::IsLeaf) {
-    for (auto &k : s.kids) n.kids.push_back(node_of(k, m, r, balls));
+    for (auto &k : s.kids) n.kids.push_back(node_of(k, m, r, balls, contacts));
+    if (contacts && !s.contacts.empty()) {
+      Leaf places;
+      places.spots = s.contacts;
+      for (auto &p : place(places, m, "").leaf.spots) contacts->push_back(p);
+    }
     return n;
   }
   double reach;
