@@ -18,7 +18,9 @@
   uint64_t qn_round_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, uint64_t, double *, uint64_t *);
 BODIES_OF(sse2)
 BODIES_OF(avx2)
+#ifndef QN_NO_AVX512
 BODIES_OF(avx512)
+#endif
 
 /* NOLINTBEGIN(bugprone-macro-parentheses): a part of names */
 #define ROW(isa, lanes)                                                                                                                  \
@@ -29,20 +31,24 @@ BODIES_OF(avx512)
   }
 /* NOLINTEND(bugprone-macro-parentheses) */
 /* From the widest to the one that always runs. */
-static const qn_wide bodies[] = {ROW(avx512, 8), ROW(avx2, 4), ROW(sse2, 2)};
+static const qn_wide bodies[] = {
+#ifndef QN_NO_AVX512
+  ROW(avx512, 8),
+#endif
+  ROW(avx2, 4), ROW(sse2, 2)};
 
-static int runs(size_t i) {
-  if (i == 0) {
+static int runs(const qn_wide *body) {
+  if (body->width == 8) {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
   }
-  return i != 1 || (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+  return body->width != 4 || (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
 }
 
 const qn_wide *qn_wide_pick(void) {
   const char *forced = getenv("QUOIN_ISA");
   const qn_wide *best = NULL;
   for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
-    if (runs(i)) {
+    if (runs(&bodies[i])) {
       if (forced && !strcmp(forced, bodies[i].name)) {
         return &bodies[i];
       }
