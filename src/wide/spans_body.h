@@ -149,7 +149,7 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
   out->reach = w.f.reach;
   counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
   if (!out->full) {
-    if (QN_LANES_NOW == QN_LANES && out->plans && !can_merge(&scene->program) && !scene->program.base) {
+    if (QN_LANES_NOW > QN_FEW && out->plans && !can_merge(&scene->program) && !scene->program.base) {
       plan_groups(&w, out);
     } else {
       merge_groups(&w, out);

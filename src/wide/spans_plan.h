@@ -57,9 +57,10 @@ static QN_NOINLINE int plan_may_hold(const planning *p, const qn_span_slot *slot
 /* Ends [from, to) of the plan lie at one place: made in the order of the leaves. Returns the one that is named where the value is another afterwards, or -1. */
 static int plan_group(const planning *p, const qn_span_plan *plan, uint32_t from, uint32_t to) {
   uint16_t e[2 * QN_PLAN_LEAVES];
-  uint32_t n = 0;
+  uint32_t n = 1;
+  e[0] = plan->end[from];
   int flips = 0, last = -1;
-  for (uint32_t i = from; i < to; i++) {
+  for (uint32_t i = from + 1; i < to; i++) {
     uint32_t j = n++;
     for (; j > 0 && p->slot[e[j - 1] / END_LEAF]->leaf > p->slot[plan->end[i] / END_LEAF]->leaf; j--) {
       e[j] = e[j - 1];
@@ -291,7 +292,7 @@ static unsigned plan_group_rows(merging *m, const qn_span_slot *slot, uint32_t s
 }
 
 /* Rows for all groups; out->merged: the lanes that they answer. */
-static void plan_groups(const walk *w, qn_packet_spans *out) {
+static QN_NOINLINE void plan_groups(const walk *w, qn_packet_spans *out) {
   planning p = {.scene = w->scene, .count = out->gate_count};
   for (int g = 0; g < QN_GROUPS; g++) {
     merging m;

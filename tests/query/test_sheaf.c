@@ -365,6 +365,61 @@ static void flush_names(void **state) {
 }
 
 /* A stretch longer than the tolerance by so little that its beginning and the tolerance, added, round to its end. Two places are told apart by one difference. */
+/* Several gates, faces that lie in one another, lanes with stretches of their own: plans answer the lanes, as the woven path does. */
+static void plans(void **state) {
+  (void)state;
+  static const char text[] = "difference() { union() { cube([4,4,4]); translate([4,0,0]) cube([4,4,4]); translate([0,4,0]) cube([8,4,2]); translate([9,4,2]) sphere(3); }\n"
+                             "union() { translate([1,1,0]) cylinder(r=0.5,h=4); translate([4,2,1]) cube([1,1,3]); difference() { translate([6,6,-1]) cube([1,1,3]);\n"
+                             "translate([6,6,0]) cube([1,1,1]); } } }\n";
+  static const double from[3][3] = {{-3, -2, 7}, {2, 2, 9}, {-5, 3, 1.5}}, to[3][3] = {{1, 0.8, -0.7}, {0.1, 0.12, -1}, {1, 0.06, 0.04}};
+  ask a;
+  ask_open(&a, text);
+  assert_true(a.scene->program.gate_count > 1);
+  for (int way = 0; way < 3; way++) {
+    quoin_ray rays[QN_LANES];
+    size_t stretches = 0;
+    for (int i = 0; i < QN_LANES; i++) {
+      rays[i] = (quoin_ray){{from[way][0], from[way][1] + 0.011 + 0.03 * (i % 8), from[way][2] + 0.017 + 0.03 * (i / 8)}, {to[way][0], to[way][1], to[way][2]}, 0, HUGE_VAL};
+      weave_ray(&a, &rays[i], &want[i]);
+      stretches += want[i].count;
+    }
+    assert_true(stretches >= QN_LANES);
+    for (size_t k = 0; k < isa_count; k++) {
+      quoin_work *work;
+      setenv("QUOIN_ISA", isas[k], 1);
+      assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+      unsetenv("QUOIN_ISA");
+      for (int again = 0; again < 2; again++) { /* with the plans of the first time */
+        asked q = {text, isas[k], way, again, rays, want, 0};
+        assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
+        assert_true(!work->sheaf->packet.few && __builtin_popcountll(work->sheaf->spans.merged) >= 60);
+      }
+      quoin_work_free(work);
+    }
+  }
+  ask_close(&a);
+  assert_int_equal(failures, 0);
+}
+
+/* A skew cylinder's exact form has rows of lengths 60 times apart: its pieces' bounds must not be as much too wide. */
+static void skew_cylinder(void **state) {
+  (void)state;
+  ask a;
+  ask_open(&a, "cylinder(base=[11.110361682241681,109.43795178130075,34.80094493390922],axis=[5.179586776376278,-22.06222842467159,18.692148937636514],"
+               "h=29.376291020875748,r=9.389612343563753);\n");
+  quoin_work *work;
+  quoin_grid grid = {.o = {-20, 40, 80}, .u = {60, 30, 0}, .v = {-30, 60, 0}, .d = {0.1, 0.3, -0.8}, .width = 128, .height = 128, .from = 0, .to = HUGE_VAL};
+  quoin_grid_answer all;
+  quoin_stats stats;
+  assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+  assert_int_equal(quoin_grid_intervals(a.scene, work, &grid, 0, 0, 128, 128, 0, &all), QUOIN_OK);
+  quoin_work_stats(work, &stats);
+  print_message("skew cylinder: %zu stretches, %llu of %zu rays woven\n", all.count, (unsigned long long)stats.exact_rays, all.rays);
+  assert_true(all.count > 500 && stats.exact_rays <= 4);
+  quoin_work_free(work);
+  ask_close(&a);
+}
+
 static void barely_longer(void **state) {
   (void)state;
   static const char text[] = "translate([-3,0,5]) difference() {\n"
@@ -496,7 +551,7 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_isas();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names), cmocka_unit_test(plans), cmocka_unit_test(skew_cylinder),
                                      cmocka_unit_test(barely_longer), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
