@@ -327,7 +327,8 @@ QN_INLINE void body_flat(const body_constants *k, vd t0, vd a, vd h, vd c, vd le
   vd v = vsqrt(vdiv(k->far2, length2));
   vd drift = vfma(vfma(vadd(vabs(a), k->ea), v, vmul(vset(2), vadd(vabs(h), k->eh))), v, k->ec);
   vm in = vlt(c, vsub(zero, drift)), out = vlt(drift, c);
-  vm elsewhere = vor(vlt(vadd(t0, v), s->a), vlt(s->b, vsub(t0, v)));
+  const vd error = vmul(s->error, vset(2));
+  vm elsewhere = vor(vlt(error, vsub(s->a, vadd(t0, v))), vlt(error, vsub(vsub(t0, v), s->b)));
   out = vand(flat, vor(out, elsewhere));
   part->out = vor(part->out, out);
   part->bad = vor(part->bad, vandnot(vandnot(flat, in), out));
