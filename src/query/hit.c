@@ -119,27 +119,6 @@ static quoin_status describe_seen(quoin_work *work, const quoin_ray *ray, const 
   return describe(work, ray, seen->t, seen->leaf, half, seen->leaving, hit);
 }
 
-/* One ray alone: of the packet only what the body for one reads is filled in. */
-static quoin_status see_alone(quoin_work *work, const quoin_ray *ray, unsigned want, qn_seen *seen) {
-  qn_packet p;
-  qn_seen lanes[QN_LANES];
-  uint64_t met;
-  for (int k = 0; k < 3; k++) {
-    p.o[k][0] = ray->o[k], p.d[k][0] = ray->d[k];
-  }
-  p.from[0] = ray->from, p.to[0] = ray->to;
-  p.on[0] = QUOIN_NO_SURFACE;
-  p.live = 1, p.few = QN_ONE_LANE;
-  p.new_origins = p.new_directions = 1, p.kept_ranges = 0, p.tile = QN_TILE_NONE, p.any = 0;
-  quoin_status status = qn_look_packet(work, &p, want, lanes, &met);
-  if (met) {
-    *seen = lanes[0];
-  } else {
-    *seen = (qn_seen){.surface = QUOIN_NO_SURFACE};
-  }
-  return status;
-}
-
 /* Rays go through packets, a run of QN_LANES at a time; a hit on a surface that one part alone has needs no more than its
    parameter and surface. */
 quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out) {
@@ -154,7 +133,7 @@ quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t
         return QUOIN_E_ARGUMENT;
       }
     }
-    quoin_status status = count == 1 ? see_alone(work, &rays[at], QN_LOOK_T, seen) : qn_look(work, count, rays + at, NULL, QN_LOOK_T, seen);
+    quoin_status status = count == 1 ? qn_look_alone(work, &rays[at], QUOIN_NO_SURFACE, QN_LOOK_T, seen) : qn_look(work, count, rays + at, NULL, QN_LOOK_T, seen);
     for (size_t i = 0; status == QUOIN_OK && i < count; i++) {
       status = describe_seen(work, &rays[at + i], &seen[i], &out[at + i]);
     }
@@ -189,7 +168,7 @@ quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_
     return status == QUOIN_OK ? qn_look_spots(work, n, rays, look, out) : status;
   }
   qn_seen seen;
-  status = see_alone(work, rays, look, &seen);
+  status = qn_look_alone(work, rays, QUOIN_NO_SURFACE, look | QN_LOOK_SURFACE, &seen);
   *out = (quoin_spot){seen.t, seen.surface, seen.leaving};
   if (seen.surface == QUOIN_NO_SURFACE) {
     *out = (quoin_spot){.surface = QUOIN_NO_SURFACE};

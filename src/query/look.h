@@ -27,6 +27,9 @@ enum {
    rounding, a comparison of two nearly equal places. */
 quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out);
 
+/* The same for one ray, with the surface that its start lies on, or QUOIN_NO_SURFACE. */
+quoin_status qn_look_alone(quoin_work *work, const quoin_ray *ray, uint32_t on, unsigned want, qn_seen *out);
+
 /* The first boundaries as the public call gives them; runs of 64 that go the same way do best as 8 by 8 tiles, row after row. want: QN_LOOK_T or 0. */
 quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out);
 
@@ -41,8 +44,8 @@ quoin_status qn_look_blocked_in_order(quoin_work *work, size_t n, const quoin_ra
 /* One ray of them by the woven path: for a lane that a packet with `any` (wide/packet.h) has given up. */
 quoin_status qn_look_woven_blocked(quoin_work *work, const quoin_ray *ray, uint8_t *blocked);
 
-/* The same for lanes that are in a packet already. *met: the lanes that meet a boundary; the others' entries are not set. */
-quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met);
+/* The same for lanes that are in a packet already. out: an entry for each lane up to the last live one. *met: the lanes that meet a boundary; the others' entries are not set. */
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen *out, uint64_t *met);
 
 /* How many of the next n rays are to go as one packet: a whole one, a few, or 1; the next *alone rays are known to go one by one. Rays that go one way but pass far from one another meet few leaves together: 64 of
    them took four times what they take one by one. In an unbounded solid only their directions count. */

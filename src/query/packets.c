@@ -116,7 +116,7 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen out[QN_LANES], uint64_t *met) {
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen *out, uint64_t *met) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
   uint64_t woven = hits.unsure | (want & QN_LOOK_ANY ? 0 : hits.tied);
@@ -298,14 +298,34 @@ static quoin_status look_together(quoin_work *work, qn_packet *packet, unsigned 
   return status;
 }
 
+quoin_status qn_look_alone(quoin_work *work, const quoin_ray *ray, uint32_t on, unsigned want, qn_seen *out) {
+  qn_packet p; /* only what the body for one reads is filled in */
+  for (int k = 0; k < 3; k++) {
+    p.o[k][0] = ray->o[k], p.d[k][0] = ray->d[k];
+  }
+  p.from[0] = ray->from, p.to[0] = ray->to;
+  p.on[0] = on;
+  p.live = 1, p.few = QN_ONE_LANE;
+  p.new_origins = p.new_directions = 1, p.kept_ranges = 0, p.tile = QN_TILE_NONE, p.any = 0;
+  uint64_t met;
+  quoin_status status = qn_look_packet(work, &p, want, out, &met);
+  if (!met) {
+    *out = (qn_seen){.surface = QUOIN_NO_SURFACE};
+  }
+  return status;
+}
+
 quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
   qn_packet packet;
   quoin_status status = QUOIN_OK;
   batch b = {.work = work, .rays = rays, .n = n};
-  while (next_batch(&b)) {
-    const unsigned step = b.lanes == 1 ? 1 : (unsigned)b.count;
-    for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at += step) {
-      status = look_together(work, &packet, b.lanes, step, rays + at, on ? on + at : NULL, want, out + at);
+  while (status == QUOIN_OK && next_batch(&b)) {
+    if (b.lanes != 1) {
+      status = look_together(work, &packet, b.lanes, (unsigned)b.count, rays + b.at, on ? on + b.at : NULL, want, out + b.at);
+      continue;
+    }
+    for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
+      status = qn_look_alone(work, rays + at, on ? on[at] : QUOIN_NO_SURFACE, want, out + at);
     }
   }
   return status;
@@ -340,8 +360,9 @@ quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, un
       status = look_rest(work, &packet, want, (unsigned)b.count, out + b.at);
     } else {
       for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
-        fill(&packet, IN_ORDER, 1, 1, rays + at, NULL, 0);
-        status = look_rest(work, &packet, want, 1, out + at);
+        qn_seen seen;
+        status = qn_look_alone(work, rays + at, QUOIN_NO_SURFACE, want | QN_LOOK_SURFACE, &seen);
+        out[at] = spot_of(&seen);
       }
     }
   }
