@@ -1,5 +1,5 @@
-/* The packet body: the first boundary of up to QN_LANES_NOW rays. Compiled once for each instruction set and each number of lanes (packet.wide.c,
-   few.wide.c, one.wide.c; see CMakeLists.txt).
+/* The packet body: the first boundary of up to QN_LANES_NOW rays. Compiled once for each instruction set, for 64 lanes (packet.wide.c) and
+   for 8 (few.wide.c; see CMakeLists.txt). A single ray has a body of its own (one_body.h).
 
    Two questions that call each other walk the normal form (scene/normal.h). enter: the first place in a union at or after a
    lane's place. leave: the place after which no term of a union holds the lane. A term [a, b) minus S is entered at leave(S, max(a, t))
@@ -333,7 +333,7 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
     }
     within = lanes_before(&last, stack[top].near);
 #else
-    if (stale && (QN_LANES_NOW == 1 || !(stack[top].node & QN_BVH_LEAF))) { /* of many lanes, as much work as a leaf: worth it for nodes only */
+    if (stale && !(stack[top].node & QN_BVH_LEAF)) { /* of many lanes, as much work as a leaf: worth it for nodes only */
       end = latest(w, best, mask & ~w->unsure), stale = 0;
       if (stack[top].near > end) {
         continue;
@@ -501,11 +501,9 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     counts->nodes += w.counts.nodes;
     return;
   }
-#if QN_LANES_NOW >= 8
   if (packet->tile == QN_TILE_ORIGINS) {
     fill_tile(packet, packet->o);
   }
-#endif
 #if QN_LANES_NOW == 64
   const lanes *start = &packet->start;
 #else
@@ -569,7 +567,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   hits->found = found & packet->live & ~w.unsure;
   hits->leaving = (scene->normal.complement ? hits->found & ~leaving : leaving) & hits->found;
   hits->far_end &= hits->found;
-  enum { RUN = QN_LANES_NOW < 8 ? QN_LANES_NOW : 8 }; /* NOLINT(bugprone-branch-clone): where there are eight lanes both are 8 */
+  enum { RUN = 8 };
   for (int j = 0; j < QN_LANES_NOW; j += RUN) {
     uint64_t any = 0, payload[RUN];
     memcpy(payload, best.p + j, sizeof payload);
