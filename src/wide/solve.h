@@ -416,7 +416,11 @@ QN_INLINE void body_meet(const body_constants *k, const vd y[3], const vd d[3], 
   } else {
     body_roots(k, t0, a, h, c, length2, s, &part);
   }
-  part.out = vandnot(part.out, slow);
+  if (QN_UNLIKELY(vbits(slow))) { /* no bound holds for what was computed there: the lane is unsure, and keeps the whole line, so that nothing else comes out as certain */
+    part.out = vandnot(part.out, slow);
+    part.ta = vpick(slow, vset(-QN_FAR), part.ta), part.tb = vpick(slow, vset(QN_FAR), part.tb);
+    part.error = vpick(slow, zero, part.error);
+  }
   s->hit = vandnot(s->hit, part.out);
   s->error = vmax(s->error, part.error);
   vd two = vmul(s->error, vset(2));

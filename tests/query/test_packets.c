@@ -487,6 +487,10 @@ static const known KNOWN[] = {
   {"in a face at 0 of what is taken away", /* a single ray's slab along an axis where d = 0 and the side is at 0 */
    "union() { wedge([1,3,1]); difference() { halfspace(n=[1,-1,1],d=2); translate([-2,2,2]) rotate([0,90,0]) cylinder(h=2,r=[2,2]); } cube([2,1,1],center=true); }",
    {0, 41.1611328125, 1}, {0, -3.2431640625, 0}, -2.75, HUGE_VAL, 1, NAN, {0.5, 41, 1, 0, -3, 0}},
+  {"beside a lane that is a thousand times as fast in the solid's frame", /* past its rim, 2^-55 of its height before the axis; t = fl(0.85) - 0.85 */
+   "scale([1,0.00001,1]) multmatrix([[1,-1.8,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cylinder(h=1.7,r1=0,r2=1.1,center=true);",
+   {-2.0679999999999996, 6.5999999999999995e-06, 0.84999999999999998}, {1, -0.001953125, -1}, -HUGE_VAL, HUGE_VAL, 1, -2.220446049250313080847263336181640625e-17,
+   {-2.068359375, 0, 0.875, 1, 0.0625, -1}},
   {"along a cylinder's axis, just out of it", "cylinder(r=5,h=2);", {3, 0x1.0000000000001p+2, -1}, {0, 0, 1}, 0, HUGE_VAL, 0, 0, {3, 3, -1, 0, 0, 1}},
 };
 
