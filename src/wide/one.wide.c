@@ -88,7 +88,7 @@ void QN_OF_ISA(qn_one)(const struct quoin_scene *scene, qn_packet *packet, qn_pa
   hits->t[0] = best.t, hits->error[0] = w.tolerance[0] * 0.5;
   hits->surface[0] = (uint32_t)payload, hits->leaf[0] = (uint32_t)(payload >> 32) & QN_LEAF_BITS;
   hits->far_end = vsecond(best.p);
-  hits->leaving = scene->normal.complement ? !left : left;
+  hits->leaving = (uint64_t)(scene->normal.complement ? !left : left);
   hits->tied = (uint64_t)tied_at(&w, best.t);
 }
 
