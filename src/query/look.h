@@ -63,12 +63,9 @@ quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, qu
 /* Runs a packet's body and counts; without a normal form every lane is unsure. */
 void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits);
 
-/* Certain that no surface but `surface`, which the ray meets within `error` of t, passes through that place (alone.c). */
-int qn_alone_there(const quoin_work *work, const quoin_ray *ray, double t, double error, uint32_t surface);
-
 /* Of `lanes`, found and tied ones of a packet that has been through its body: those whose surface the packet names as the woven path would, since no other passes at the
-   hit. Which of its parts is met is still open (patch.c). */
-uint64_t qn_alone_lanes(const quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes);
+   hit. Which of its parts is met is still open (alone.c). */
+uint64_t qn_alone_lanes(const quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes);
 
 /* The gradient of a half-space's form at pivot + y, in doubles (hit.c). */
 void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]);

@@ -121,7 +121,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   qn_look_run(work, packet, &hits);
   uint64_t woven = hits.unsure | (want & QN_LOOK_ANY ? 0 : hits.tied);
   if (want & (QN_LOOK_MATERIAL | QN_LOOK_SURFACE)) {
-    for (uint64_t m = hits.tied & ~hits.unsure ? qn_alone_lanes(work, packet, &hits, hits.tied & ~hits.unsure) : 0; m; m &= m - 1) {
+    for (uint64_t m = hits.tied & ~hits.unsure ? qn_alone_lanes(work->scene, packet, &hits, hits.tied & ~hits.unsure) : 0; m; m &= m - 1) {
       unsigned lane = qn_trailing_zeros(m);
       const int open = want & QN_LOOK_MATERIAL && work->scene->surfaces[hits.surface[lane]].materials_differ;
       woven &= ~((uint64_t)!open << lane);
@@ -172,7 +172,7 @@ static quoin_spot spot_of(const qn_seen *seen) {
 quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
-  const uint64_t woven = hits.unsure | (hits.tied ? hits.tied & ~qn_alone_lanes(work, packet, &hits, hits.tied) : 0), found = hits.found & ~woven;
+  const uint64_t woven = hits.unsure | (hits.tied ? hits.tied & ~qn_alone_lanes(work->scene, packet, &hits, hits.tied) : 0), found = hits.found & ~woven;
   _Alignas(64) double rounded[QN_LANES];
   const double *t = hits.t;
   uint64_t sure = found;

@@ -5,7 +5,6 @@
 #include "ray/around.h"
 #include "wide/points.h"
 
-
 /* A leaf's own coordinates, in doubles: local = inverse . (x, 1); its primitive's arguments (a polyhedron has thousands). */
 typedef struct qn_local {
   uint32_t leaf; /* and one: 0 where none is held */

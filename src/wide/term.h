@@ -57,7 +57,7 @@ static void piece_prepare(const walk *w, const qn_piece_head *head, piece_consta
   case QN_PIECE_BOX: box_prepare(&w->f, (const qn_piece_box *)(const void *)head, &k->box); break;
   case QN_PIECE_ROUND: {
     const qn_piece_round *r = (const qn_piece_round *)(const void *)head;
-    k->round.slab = QN_LANES_NOW > 1 && r->surface[1] != UINT32_MAX && r->surface[2] != UINT32_MAX && r->cap[0][0] == -r->cap[1][0] && r->cap[0][1] == -r->cap[1][1] && r->cap[0][2] == -r->cap[1][2];
+    k->round.slab = r->surface[1] != UINT32_MAX && r->surface[2] != UINT32_MAX && r->cap[0][0] == -r->cap[1][0] && r->cap[0][1] == -r->cap[1][1] && r->cap[0][2] == -r->cap[1][2];
     if (k->round.slab) {
       slab_prepare(&w->f, r->pivot, r->cap[0], r->cap[0][3], r->cap[1][3], r->surface[1], r->surface[2], head->leaf, &k->round.caps);
     }

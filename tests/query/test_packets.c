@@ -105,7 +105,7 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
   sure = bodies[body]->round(a->scene, p, &hits, hits.found, rounded, &made);
   tally(&by_model[k.model], &hits, live), tally(&by_bundle[k.bundle], &hits, live), tally(&by_frame[k.frame], &hits, live), tally(&by_isa[body], &hits, live);
   tally(&table[k.model][k.bundle], &hits, live);
-  const uint64_t alone = qn_alone_lanes(a->work, p, &hits, hits.tied);
+  const uint64_t alone = qn_alone_lanes(a->scene, p, &hits, hits.tied);
   alone_of_tied += (uint64_t)__builtin_popcountll(alone);
   for (uint64_t m = live & ~hits.unsure; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
@@ -119,7 +119,7 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
       blame("found or not", text, bodies[body]->name, k, ray, w, &hits, lane);
     } else if (found) {
       if ((int)(hits.leaving >> lane & 1) != w->leaving || (!(hits.tied >> lane & 1) && (hits.surface[lane] != w->surface || hits.leaf[lane] != w->part)) ||
-          (hits.surface[lane] != w->surface && (alone >> lane & 1 || qn_alone_there(a->work, ray, hits.t[lane], hits.error[lane], hits.surface[lane])))) {
+          (hits.surface[lane] != w->surface && (alone >> lane & 1 || qn_alone_lanes(a->scene, p, &hits, (uint64_t)1 << lane)))) {
         blame("surface, leaf or side", text, bodies[body]->name, k, ray, w, &hits, lane);
       } else if (!(fabs(hits.t[lane] - w->t) <= hits.error[lane] + 0x1p-52 * fabs(w->t))) {
         blame("parameter", text, bodies[body]->name, k, ray, w, &hits, lane);

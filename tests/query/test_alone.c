@@ -1,4 +1,4 @@
-/* Lanes of a tile that end on one plane, and other surfaces that pass through their places or between them (query/patch.c): boxes, balls and cylinders with whole
+/* Lanes of a tile that end on one plane, and other surfaces that pass through their places or between them (query/alone.c): boxes, balls and cylinders with whole
    numbers, so that arithmetic on integers knows which lanes have the plane for themselves. */
 #include "ask.h"
 
@@ -101,7 +101,7 @@ static void lattice(void **state) {
     for (int i = roll(4); i > 0; i--) {
       lanes &= ((uint64_t)roll(1 << 30) << 40) ^ ((uint64_t)roll(1 << 30) << 20) ^ (uint64_t)roll(1 << 30);
     }
-    const uint64_t alone = qn_alone_lanes(a.work, &p, &hits, lanes);
+    const uint64_t alone = qn_alone_lanes(a.scene, &p, &hits, lanes);
     assert_true((alone & ~lanes) == 0);
     whole += alone == ~(uint64_t)0;
     for (uint64_t m = lanes; m; m &= m - 1) {
