@@ -38,30 +38,15 @@ static void see_origins(qn_packet *p) {
 }
 
 #if QN_LANES_NOW >= 8 /* tiles */
-/* Floats below and above eight doubles. */
-QN_INLINE void downs(const double v[8], float out[8]) {
-  for (int k = 0; k < 8; k++) {
-    out[k] = down(v[k]);
-  }
-}
-QN_INLINE void ups(const double v[8], float out[8]) {
-  for (int k = 0; k < 8; k++) {
-    out[k] = up(v[k]);
-  }
-}
-
 /* Eight lanes are four columns and two rows (packet.h); sums of what is monotone are extreme in the corners. */
 static void see_tile_origins(qn_packet *p) {
   for (int i = 0; i < 3; i++) {
     const double *a = p->across[i], *u = p->up[i];
-    const double x0 = least(a[0], a[3]), x1 = least(a[4], a[7]), X0 = most(a[0], a[3]), X1 = most(a[4], a[7]);
-    const double y0 = least(u[0], u[1]), y1 = least(u[2], u[3]), y2 = least(u[4], u[5]), y3 = least(u[6], u[7]);
-    const double Y0 = most(u[0], u[1]), Y1 = most(u[2], u[3]), Y2 = most(u[4], u[5]), Y3 = most(u[6], u[7]);
-    const double low[8] = {x0 + y0, x0 + y1, x1 + y0, x1 + y1, x0 + y2, x0 + y3, x1 + y2, x1 + y3};
-    const double high[8] = {X0 + Y0, X0 + Y1, X1 + Y0, X1 + Y1, X0 + Y2, X0 + Y3, X1 + Y2, X1 + Y3};
-    downs(low, p->omin[i]), ups(high, p->omax[i]);
-    p->low[i] = least(x0, x1) + least(y0, y3);
-    p->high[i] = most(X0, X1) + most(Y0, Y3);
+    const double x[2] = {least(a[0], a[3]), least(a[4], a[7])}, X[2] = {most(a[0], a[3]), most(a[4], a[7])};
+    const double y[4] = {least(u[0], u[1]), least(u[2], u[3]), least(u[4], u[5]), least(u[6], u[7])}, Y[4] = {most(u[0], u[1]), most(u[2], u[3]), most(u[4], u[5]), most(u[6], u[7])};
+    fstore(p->omin[i], downs(ftable(x, y))), fstore(p->omax[i], ups(ftable(X, Y)));
+    p->low[i] = least(x[0], x[1]) + least(y[0], y[3]);
+    p->high[i] = most(X[0], X[1]) + most(Y[0], Y[3]);
   }
 }
 

@@ -535,7 +535,11 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   }
   uint64_t found = mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near, 0) : 0;
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
-  for (int g = 0; g < QN_GROUPS; g++) {
+  vd payloads = vset(0); /* of any lane */
+  for (int j = 0; j < QN_LANES_NOW; j += QN_W) {
+    payloads = vbitor(payloads, vload(best.p + j));
+  }
+  for (int g = 0; vsigns(payloads) && g < QN_GROUPS; g++) {
     within |= (uint64_t)vsigns(vload(best.p + g * QN_W)) << (g * QN_W); /* QN_STARTS_ON */
   }
   within &= found;
@@ -556,12 +560,17 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     }
   }
   const vd reach = vset(w.f.reach);
-  for (int g = 0; g < QN_GROUPS; g++) { /* beyond reach planes may have been taken for what they are not: something else is there */
-    int o = g * QN_W;
-    vd t = vload(best.t + o);
-    w.unsure |= CHECKED ? ((uint64_t)(QN_ALL_BITS & ~vbits(vle(vabs(t), reach))) << o) & found : 0;
-    vstore(hits->t + o, t), vstore(hits->error + o, vmul(vload(w.tolerance + o), vset(0.5)));
-    hits->far_end |= (uint64_t)vsecond(vload(best.p + o)) << o;
+  vm near_all = vmask(QN_ALL_BITS);
+  for (int j = 0; j < QN_LANES_NOW; j += QN_W) {
+    vd t = vload(best.t + j);
+    near_all = vand(near_all, vle(vabs(t), reach));
+    vstore(hits->t + j, t), vstore(hits->error + j, vmul(vload(w.tolerance + j), vset(0.5)));
+  }
+  for (int g = 0; CHECKED && vbits(near_all) != QN_ALL_BITS && g < QN_GROUPS; g++) { /* beyond reach planes may have been taken for what they are not: something else is there */
+    w.unsure |= (uint64_t)(QN_ALL_BITS & ~vbits(vle(vabs(vload(best.t + g * QN_W)), reach))) << (g * QN_W) & found;
+  }
+  for (int g = 0; (within || vsecond(payloads)) && g < QN_GROUPS; g++) {
+    hits->far_end |= (uint64_t)vsecond(vload(best.p + g * QN_W)) << (g * QN_W);
   }
   hits->unsure = w.unsure & packet->live;
   hits->found = found & packet->live & ~w.unsure;

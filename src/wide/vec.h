@@ -235,6 +235,7 @@ QN_INLINE vdd vtwo_product(vd a, vd b) {
 }
 
 /* --- eight floats ----------------------------------------------------------------------------------------------- */
+/* ftable: the sums, rounded twice, of two columns and four rows: x0 + y0, x0 + y1, x1 + y0, x1 + y1, and the same with y2 and y3. */
 #if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
 typedef __m256 vf8;
 QN_INLINE vf8 fset(float a) { return _mm256_set1_ps(a); }
@@ -247,6 +248,11 @@ QN_INLINE vf8 ffma(vf8 a, vf8 b, vf8 c) { return _mm256_fmadd_ps(a, b, c); }
 QN_INLINE vf8 fmin8(vf8 a, vf8 b) { return _mm256_min_ps(a, b); }
 QN_INLINE vf8 fmax8(vf8 a, vf8 b) { return _mm256_max_ps(a, b); }
 QN_INLINE unsigned fle(vf8 a, vf8 b) { return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
+QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
+  const __m256d pair = _mm256_set_pd(x[1], x[1], x[0], x[0]);
+  const __m256d first = _mm256_add_pd(pair, _mm256_set_pd(y[1], y[0], y[1], y[0])), second = _mm256_add_pd(pair, _mm256_set_pd(y[3], y[2], y[3], y[2]));
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(first)), _mm256_cvtpd_ps(second), 1);
+}
 #else
 typedef struct vf8 { __m128 a, b; } vf8;
 QN_INLINE vf8 fset(float a) { return (vf8){_mm_set1_ps(a), _mm_set1_ps(a)}; }
@@ -260,6 +266,11 @@ QN_INLINE vf8 fmin8(vf8 x, vf8 y) { return (vf8){_mm_min_ps(x.a, y.a), _mm_min_p
 QN_INLINE vf8 fmax8(vf8 x, vf8 y) { return (vf8){_mm_max_ps(x.a, y.a), _mm_max_ps(x.b, y.b)}; }
 QN_INLINE unsigned fle(vf8 x, vf8 y) {
   return (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.a, y.a)) | (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.b, y.b)) << 4;
+}
+QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
+  const __m128d left = _mm_set1_pd(x[0]), right = _mm_set1_pd(x[1]), first = _mm_set_pd(y[1], y[0]), second = _mm_set_pd(y[3], y[2]);
+  return (vf8){_mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(left, first)), _mm_cvtpd_ps(_mm_add_pd(right, first))),
+               _mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(left, second)), _mm_cvtpd_ps(_mm_add_pd(right, second)))};
 }
 #endif
 

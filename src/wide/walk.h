@@ -55,6 +55,17 @@ QN_INLINE float up(double v) {
   return f + (fabsf(f) * QN_FLOAT_STEP + QN_FLOAT_TINY);
 }
 
+/* The same of eight floats that doubles were rounded to. */
+QN_INLINE vf8 steps(vf8 f) { return fadd(fmul(fmax8(f, fsub(fset(0), f)), fset(QN_FLOAT_STEP)), fset(QN_FLOAT_TINY)); }
+QN_INLINE vf8 downs(vf8 f) {
+  f = fmin8(f, fset(FLT_MAX));
+  return fsub(f, steps(f));
+}
+QN_INLINE vf8 ups(vf8 f) {
+  f = fmax8(f, fset(-FLT_MAX));
+  return fadd(f, steps(f));
+}
+
 /* The lanes of sub-packets: byte k all ones where bit k is set; or, where a sub-packet is one lane, the bits themselves. */
 QN_INLINE uint64_t eights(unsigned bits) {
   if (SUB_LANES == 1) {
