@@ -1,4 +1,5 @@
 /* Rays in packets: 64 at a time through the wide body that this machine runs; a ray that it gives up is woven. */
+#include "base/bounds.h"
 #include "query/look.h"
 
 #include <math.h>
@@ -40,7 +41,8 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
     return;
   }
   qn_wide_counts wide = {.budget = patience_budget(&work->patience)};
-  const qn_first_fn body = packet->few == QN_MANY_LANES ? work->wide->first : packet->few == QN_FEW_LANES ? work->wide->few : work->wide->one;
+  const qn_wide *bodies = work->wide;
+  const qn_first_fn body = packet->few == QN_MANY_LANES ? bodies->first : packet->few == QN_FEW_LANES ? bodies->few : packet->few == QN_ONE_LANE ? bodies->one : bodies->each;
   if (wide.budget == 0) {
     /* What the body derives from the rays is made all the same: the next packet may say that it keeps their directions. */
     const uint64_t live = packet->live;
@@ -55,9 +57,16 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
     const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
     counts->rays += lanes - unsure;
     counts->exact_rays += unsure;
-    if (QN_UNLIKELY(hits->unsure == packet->live && wide.leaves > wide.budget)) { /* or nearly so */
+    const int each = packet->few == QN_EACH_LANE;
+    for (unsigned i = each ? lanes - (unsigned)wide.lost : 0; i > 0; i--) {
+      patience_won(&work->patience);
+    }
+    for (unsigned i = (unsigned)wide.lost; QN_UNLIKELY(i > 0); i--) {
       patience_lost(&work->patience);
-    } else {
+    }
+    if (QN_UNLIKELY(!each && hits->unsure == packet->live && wide.leaves > wide.budget)) { /* or nearly so */
+      patience_lost(&work->patience);
+    } else if (!each) {
       patience_won(&work->patience);
     }
   }
@@ -116,6 +125,32 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
+/* Of lanes that went each by itself: rounding has one bound of their directions' lengths, which is good for those of about one length. */
+static uint64_t round_each(quoin_work *work, qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES], uint64_t *made) {
+  double dd[QN_LANES], least = HUGE_VAL, most = 0;
+  for (uint64_t m = lanes; m; m &= m - 1) {
+    const unsigned i = qn_trailing_zeros(m);
+    dd[i] = packet->d[0][i] * packet->d[0][i] + packet->d[1][i] * packet->d[1][i] + packet->d[2][i] * packet->d[2][i];
+    least = dd[i] < least ? dd[i] : least, most = dd[i] > most ? dd[i] : most;
+  }
+  for (uint64_t m = lanes; m && work->scene->line_of; m &= m - 1) { /* each leaf's is far from the others' */
+    QN_FETCH(&work->scene->line_of[hits->leaf[qn_trailing_zeros(m)]]);
+  }
+  if (most <= 4 * least) {
+    packet->d_most = sqrt(QN_WIDE_SLACK * most);
+    return work->wide->round(work->scene, packet, hits, lanes, t, made);
+  }
+  uint64_t sure = 0;
+  for (uint64_t m = lanes; m; m &= m - 1) {
+    const unsigned i = qn_trailing_zeros(m);
+    _Alignas(64) double own[QN_LANES];
+    packet->d_most = sqrt(QN_WIDE_SLACK * dd[i]);
+    sure |= work->wide->round(work->scene, packet, hits, (uint64_t)1 << i, own, made);
+    t[i] = own[i];
+  }
+  return sure;
+}
+
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen *out, uint64_t *met) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
@@ -137,6 +172,8 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     uint64_t sure = hits.found & ~woven, *made = &qn_scratch_counts(work->scratch)->exact_forms;
     if (packet->few == QN_ONE_LANE) {
       sure = sure && work->wide->round_one(work->scene, packet, &hits, rounded, made);
+    } else if (packet->few == QN_EACH_LANE) {
+      sure = sure ? round_each(work, packet, &hits, sure, rounded, made) : 0;
     } else {
       sure = work->wide->round(work->scene, packet, &hits, sure, rounded, made);
     }
@@ -227,6 +264,14 @@ typedef struct batch {
   unsigned lanes, last;     /* last: the lanes of the packet before */
 } batch;
 
+/* Whether a few rays from `at` on, *count of them, share a packet. */
+static int few_together(const batch *b, size_t at, size_t *count) {
+  const quoin_ray *rays = b->rays + at;
+  const double *d = rays[0].d, apart2 = b->work->apart * b->work->apart * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  *count = b->run - at < QN_FEW ? b->run - at : QN_FEW;
+  return *count > 1 && go_together(rays, *count) && width2(rays, *count) <= apart2 / 2;
+}
+
 static int next_batch(batch *b) {
   b->last = b->lanes;
   b->at += b->count;
@@ -243,8 +288,10 @@ static int next_batch(batch *b) {
       return 1;
     }
   }
-  b->count = b->run - b->at < QN_FEW ? b->run - b->at : QN_FEW;
-  b->lanes = b->count > 1 && go_together(rays, b->count) && width2(rays, b->count) <= apart2 / 2 ? QN_FEW : 1;
+  b->lanes = few_together(b, b->at, &b->count) ? QN_FEW : 1;
+  for (size_t more; b->lanes == 1 && b->at + b->count < b->run && !few_together(b, b->at + b->count, &more);) {
+    b->count += more;
+  }
   return 1;
 }
 
@@ -280,6 +327,12 @@ static void fill(qn_packet *p, order way, unsigned lanes, unsigned n, const quoi
   p->any = 0;
 }
 
+/* n rays that go each by itself; rounding takes eight lanes at a time. */
+static void fill_each(qn_packet *p, unsigned n, const quoin_ray *rays, const uint32_t *on) {
+  fill(p, IN_ORDER, (n + QN_FEW - 1) / QN_FEW * QN_FEW, n, rays, on, 0);
+  p->few = QN_EACH_LANE;
+}
+
 int qn_rays_together(const quoin_ray *rays, size_t n) {
   return go_together(rays, n);
 }
@@ -290,7 +343,11 @@ void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *
 static quoin_status look_together(quoin_work *work, qn_packet *packet, unsigned lanes, unsigned n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {
   qn_seen seen[QN_LANES];
   uint64_t met;
-  fill(packet, IN_ORDER, lanes, n, rays, on, 0);
+  if (lanes == 1) {
+    fill_each(packet, n, rays, on);
+  } else {
+    fill(packet, IN_ORDER, lanes, n, rays, on, 0);
+  }
   quoin_status status = qn_look_packet(work, packet, want, seen, &met);
   for (size_t i = 0; i < n; i++) {
     out[i] = met >> i & 1 ? seen[i] : (qn_seen){.surface = QUOIN_NO_SURFACE};
@@ -320,12 +377,10 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
   quoin_status status = QUOIN_OK;
   batch b = {.work = work, .rays = rays, .n = n};
   while (status == QUOIN_OK && next_batch(&b)) {
-    if (b.lanes != 1) {
+    if (b.count > 1) {
       status = look_together(work, &packet, b.lanes, (unsigned)b.count, rays + b.at, on ? on + b.at : NULL, want, out + b.at);
-      continue;
-    }
-    for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
-      status = qn_look_alone(work, rays + at, on ? on[at] : QUOIN_NO_SURFACE, want, out + at);
+    } else {
+      status = qn_look_alone(work, rays + b.at, on ? on[b.at] : QUOIN_NO_SURFACE, want, out + b.at);
     }
   }
   return status;
@@ -358,12 +413,13 @@ quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, un
     } else if (b.lanes == QN_FEW) {
       fill(&packet, IN_ORDER, QN_FEW, (unsigned)b.count, rays + b.at, NULL, b.lanes == b.last);
       status = look_rest(work, &packet, want, (unsigned)b.count, out + b.at);
+    } else if (b.count > 1) {
+      fill_each(&packet, (unsigned)b.count, rays + b.at, NULL);
+      status = look_rest(work, &packet, want, (unsigned)b.count, out + b.at);
     } else {
-      for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
-        qn_seen seen;
-        status = qn_look_alone(work, rays + at, QUOIN_NO_SURFACE, want | QN_LOOK_SURFACE, &seen);
-        out[at] = spot_of(&seen);
-      }
+      qn_seen seen;
+      status = qn_look_alone(work, rays + b.at, QUOIN_NO_SURFACE, want | QN_LOOK_SURFACE, &seen);
+      out[b.at] = spot_of(&seen);
     }
   }
   return status;
@@ -385,19 +441,21 @@ quoin_status qn_look_blocked_in_order(quoin_work *work, size_t n, const quoin_ra
   quoin_status status = QUOIN_OK;
   batch b = {.work = work, .rays = rays, .n = n};
   while (status == QUOIN_OK && next_batch(&b)) {
-    const unsigned step = b.lanes == 1 ? 1 : (unsigned)b.count;
     const order way = b.lanes == QN_LANES ? AS_TILE : IN_ORDER;
-    for (size_t at = b.at; at < b.at + b.count; at += step) {
-      qn_packet_hits hits;
-      fill(&packet, way, b.lanes, step, rays + at, on ? on + at : NULL, b.lanes == b.last || at != b.at);
-      packet.any = 1;
-      qn_look_run(work, &packet, &hits);
-      for (unsigned i = 0; i < step; i++) {
-        const unsigned lane = lane_for(way, i);
-        blocked[at + i] = hits.found >> lane & 1;
-        if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
-          status = qn_look_woven_blocked(work, &rays[at + i], &blocked[at + i]);
-        }
+    const uint32_t *starts = on ? on + b.at : NULL;
+    if (b.lanes == 1 && b.count > 1) {
+      fill_each(&packet, (unsigned)b.count, rays + b.at, starts);
+    } else {
+      fill(&packet, way, b.lanes, (unsigned)b.count, rays + b.at, starts, b.lanes != 1 && b.lanes == b.last);
+    }
+    packet.any = 1;
+    qn_packet_hits hits;
+    qn_look_run(work, &packet, &hits);
+    for (unsigned i = 0; i < b.count; i++) {
+      const unsigned lane = lane_for(way, i);
+      blocked[b.at + i] = hits.found >> lane & 1;
+      if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
+        status = qn_look_woven_blocked(work, &rays[b.at + i], &blocked[b.at + i]);
       }
     }
   }

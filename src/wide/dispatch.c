@@ -7,6 +7,7 @@
   void qn_first_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);      \
   void qn_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);        \
   void qn_one_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);        \
+  void qn_each_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);       \
   void qn_spans_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *);     \
   void qn_spans_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *); \
   void qn_points_##isa(const struct quoin_scene *, qn_point_walk *, size_t, const double *, const double *, uint8_t *, qn_wide_counts *); \
@@ -25,7 +26,7 @@ BODIES_OF(avx512)
 /* NOLINTBEGIN(bugprone-macro-parentheses): a part of names */
 #define ROW(isa, lanes)                                                                                                                  \
   {                                                                                                                                      \
-    .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .spans = qn_spans_##isa,             \
+    .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .each = qn_each_##isa, .spans = qn_spans_##isa, \
     .spans_few = qn_spans_few_##isa, .points = qn_points_##isa, .spots = qn_spots_##isa, .round = qn_round_##isa, .round_one = qn_round_one_##isa, \
     .round_flats = qn_round_flats_##isa, .gather = qn_gather_##isa, .move = qn_move_##isa                                                  \
   }

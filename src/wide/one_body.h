@@ -297,49 +297,69 @@ QN_INLINE int push_children(const walk *w, const qn_bvh_node *n, unsigned meets,
   return top;
 }
 
-/* The ray does not start before `start`, and `end` is not before its best place. any: a place is enough, the first or not. */
-static int union_walk(walk *w, const qn_union *un, const place *from, place *best, float start, float end, int any) {
-  const qn_nterm *terms = w->normal->terms;
+/* A walk through a union's hierarchy, which can be left after each step and taken up again. The ray does not start before `start`. */
+typedef struct stroll {
+  const place *from;
+  place *best;
+  int any, found, top; /* any: a place is enough, the first or not */
+  uint32_t at;
+  float start, last;
+} stroll;
+
+/* `end` is not before the best place. 0: there is no more to do. */
+QN_INLINE int stroll_begin(walk *w, stroll *s, const qn_union *un, const place *from, place *best, float start, float end, int any) {
   int found = 0;
   for (uint32_t i = 0; i < un->wide && !w->unsure && !(any && found); i++) {
-    found |= term_enter(w, &terms[un->wide0 + i], from, best);
+    found |= term_enter(w, &w->normal->terms[un->wide0 + i], from, best);
   }
-  if (un->root == QN_NO_ROOT || w->unsure || (any && found)) {
-    return found;
-  }
-  waiting stack[STACK];
-  int top = 0;
-  uint32_t at = un->root;
-  float last = beam_end(found ? latest(w, best) : end);
-  for (;;) {
-    if (!(at & QN_BVH_LEAF)) {
-      const qn_bvh_node *n = &w->normal->nodes[at];
-      _Alignas(32) float near[8];
-      w->counts.nodes++;
-      const unsigned meets = node_meets(w, n, start, last, near);
-      if (meets & (meets - 1)) {
-        top = push_children(w, n, meets, near, stack, top);
-      } else if (meets) {
-        at = n->child[qn_trailing_zeros(meets)];
-        continue;
+  *s = (stroll){from, best, any, found, 0, un->root, start, beam_end(found ? latest(w, best) : end)};
+  return !(un->root == QN_NO_ROOT || w->unsure || (any && found));
+}
+
+/* One node or one term. 0: there is no more to do. ahead: what is next is asked of memory, for whoever does something else meanwhile. */
+QN_INLINE int stroll_step(walk *w, stroll *s, waiting *stack, int ahead) {
+  if (!(s->at & QN_BVH_LEAF)) {
+    const qn_bvh_node *n = &w->normal->nodes[s->at];
+    _Alignas(32) float near[8];
+    w->counts.nodes++;
+    const unsigned meets = node_meets(w, n, s->start, s->last, near);
+    if (meets & (meets - 1)) {
+      s->top = push_children(w, n, meets, near, stack, s->top);
+    } else if (meets) {
+      s->at = n->child[qn_trailing_zeros(meets)];
+      if (ahead) {
+        fetch_child(w, s->at);
       }
-    } else if (term_enter(w, &terms[at & ~QN_BVH_LEAF], from, best)) {
-      found = 1;
-      if (any) {
-        return found;
-      }
-      last = beam_end(latest(w, best));
-    } else if (w->unsure) {
+      return 1;
+    }
+  } else if (term_enter(w, &w->normal->terms[s->at & ~QN_BVH_LEAF], s->from, s->best)) {
+    s->found = 1;
+    if (s->any) {
       return 0;
     }
-    do {
-      if (!top) {
-        return found;
-      }
-      /* cppcheck-suppress uninitvar ; what is below top has been pushed */
-    } while (stack[--top].near > last);
-    at = stack[top].node;
+    s->last = beam_end(latest(w, s->best));
+  } else if (w->unsure) {
+    s->found = 0;
+    return 0;
   }
+  do {
+    if (!s->top) {
+      return 0;
+    }
+    /* cppcheck-suppress uninitvar ; what is below top has been pushed */
+  } while (stack[--s->top].near > s->last);
+  s->at = stack[s->top].node;
+  return 1;
+}
+
+static int union_walk(walk *w, const qn_union *un, const place *from, place *best, float start, float end, int any) {
+  stroll s;
+  if (stroll_begin(w, &s, un, from, best, start, end, any)) {
+    waiting stack[STACK];
+    while (stroll_step(w, &s, stack, 0)) {
+    }
+  }
+  return s.found;
 }
 
 static int union_enter(walk *w, uint32_t u, const place *from, place *best) {

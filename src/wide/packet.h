@@ -11,7 +11,7 @@
 #include "scene/scene.h"
 
 enum { QN_LANES = 64, QN_FEW = 8 };
-enum { QN_MANY_LANES, QN_FEW_LANES, QN_ONE_LANE }; /* how many lanes of a packet are there: QN_LANES, QN_FEW or 1 */
+enum { QN_MANY_LANES, QN_FEW_LANES, QN_ONE_LANE, QN_EACH_LANE }; /* how many lanes of a packet are there: QN_LANES, QN_FEW or 1; or each live one goes by itself */
 
 QN_INLINE unsigned qn_lane_column(unsigned lane) { return (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4); }
 QN_INLINE unsigned qn_lane_row(unsigned lane) { return (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4); }
@@ -31,7 +31,7 @@ typedef struct qn_packet {
   int new_origins, new_directions;
   int kept_ranges; /* from, to and on are as they were when the body last saw them */
   int any; /* not the first boundary: whether the ray is in the solid anywhere in its range; only `found` and `unsure` are answered */
-  int few; /* QN_FEW_LANES, QN_ONE_LANE: only the first ones are there */
+  int few; /* QN_FEW_LANES, QN_ONE_LANE: only the first ones are there; QN_EACH_LANE: live lanes, and the body sets nothing of what it derives */
   /* A tile: o or d (the other is the same in all lanes) of column x and row y is across[.][x] + up[.][y], both monotone along each axis; the
      body fills it in. TILE_NONE: o and d are filled in by whoever made the packet. TILE_PAIRS: so they are, and are rounded; the lines are o + olow and
      d + dlow, to 2^-104 of each number, and |olow| is at most u |o|, |dlow| at most u |d|. TILE_MOVED: so they are, and the line's o is within u moved of this one, component
@@ -64,7 +64,8 @@ typedef struct qn_packet_hits {
 
 /* budget: leaves that each QN_W lanes may solve before all lanes are given up; 0: no limit. Enter and leave call each other, so a term taken away from a
    term, and so on through many levels that overlap, may be walked a number of times that doubles with each. */
-typedef struct qn_wide_counts { uint64_t nodes, leaves, packets, budget; } qn_wide_counts;
+/* lost: how many rays of those that go each by itself were given up for that. */
+typedef struct qn_wide_counts { uint64_t nodes, leaves, packets, budget, lost; } qn_wide_counts;
 
 /* The first boundary at or after `from` and not after `to`. */
 typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
@@ -152,6 +153,7 @@ typedef struct qn_wide {
   qn_first_fn first; /* all QN_LANES lanes: every lane's numbers must be there, live or not */
   qn_first_fn few;   /* the first QN_FEW lanes alone, as quick as those need; no tiles */
   qn_first_fn one;   /* the first lane alone */
+  qn_first_fn each;  /* each live lane alone, several of them at a time; the same answers as theirs one by one, and zeros where nothing is found; no tiles */
   qn_round_fn round;
   qn_spans_fn spans, spans_few; /* of all lanes; of the first QN_FEW */
   unsigned width;               /* lanes of a group in qn_packet_spans */
