@@ -1,5 +1,7 @@
 #include "base/mem.h"
 
+#include "base/large.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,9 +103,22 @@ int qn_grow_(qn_mem *mem, void **items, size_t *capacity, size_t want, size_t it
 
 enum { LINE = 64 };
 
+/* Blocks of lines never grow, so that large ones may have pages of their own; but not where the caller has an allocator of their own. */
+static int is_large(const qn_mem *mem, size_t size) { return mem->a.alloc == plain_alloc && qn_large_is(size); }
+
 void *qn_alloc_line(qn_mem *mem, size_t size) {
   if (size > SIZE_MAX - 2 * LINE) {
     return NULL;
+  }
+  if (is_large(mem, size)) {
+    if (!book(mem, size)) {
+      return NULL;
+    }
+    void *pages = qn_large_alloc(size);
+    if (!pages) {
+      atomic_fetch_sub_explicit(&mem->used, size, memory_order_relaxed);
+    }
+    return pages;
   }
   char *block = qn_alloc(mem, size + LINE);
   if (!block) {
@@ -115,7 +130,10 @@ void *qn_alloc_line(qn_mem *mem, size_t size) {
 }
 
 void qn_free_line(qn_mem *mem, void *block, size_t size) {
-  if (block) {
+  if (block && is_large(mem, size)) {
+    qn_large_free(block, size);
+    atomic_fetch_sub_explicit(&mem->used, size, memory_order_relaxed);
+  } else if (block) {
     char *line = block;
     qn_free(mem, line - line[-1], size + LINE);
   }

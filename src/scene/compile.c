@@ -260,12 +260,12 @@ QUOIN_API void quoin_scene_free(quoin_scene *s) {
   qn_normal_free(&s->normal, mem);
   qn_bvh_free(&s->bvh, mem);
   qn_free_line(mem, s->lines, s->line_count * 64);
-  qn_free(mem, s->line_of, s->leaf_count * sizeof *s->line_of);
+  qn_free_line(mem, s->line_of, s->leaf_count * sizeof *s->line_of);
   if (s->cells) {
     qn_cells_free(atomic_load_explicit(s->cells, memory_order_relaxed), mem);
     qn_free(mem, s->cells, sizeof *s->cells);
   }
-  qn_free(mem, s->plain, s->plain_count * sizeof *s->plain);
+  qn_free_line(mem, s->plain, s->plain_count * sizeof *s->plain);
   qn_free(mem, s->unbounded, s->unbounded_count * sizeof *s->unbounded);
   qn_free(mem, s->materials, s->material_count * sizeof *s->materials);
   qn_free(mem, s->part_names, s->leaf_count * sizeof *s->part_names);

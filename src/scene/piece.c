@@ -287,7 +287,7 @@ static quoin_status find_plain(void *user, unsigned thread, size_t i) {
 
 quoin_status qn_pieces_build(quoin_scene *scene, const quoin_model *model, qn_mem *mem, const uint8_t *kinds, unsigned threads) {
   const qn_normal *n = &scene->normal;
-  scene->line_of = qn_alloc(mem, scene->leaf_count * sizeof *scene->line_of);
+  scene->line_of = qn_alloc_line(mem, scene->leaf_count * sizeof *scene->line_of);
   if (!scene->line_of) {
     return QUOIN_E_MEMORY;
   }
@@ -314,7 +314,7 @@ quoin_status qn_pieces_build(quoin_scene *scene, const quoin_model *model, qn_me
   if (!scene->lines) {
     return QUOIN_E_MEMORY;
   }
-  scene->plain = qn_alloc(mem, n->term_count * sizeof *scene->plain);
+  scene->plain = qn_alloc_line(mem, n->term_count * sizeof *scene->plain);
   if (!scene->plain) {
     return QUOIN_E_MEMORY;
   }

@@ -81,6 +81,53 @@ static void lines_are_aligned(void **state) {
   assert_int_equal(mem.used, 0);
 }
 
+/* Blocks with pages of their own: counted, limited, freed like others, and only where the caller has no allocator. */
+static int asked_of_caller;
+static void *callers_alloc(void *user, size_t size) {
+  (void)user;
+  asked_of_caller++;
+  return malloc(size);
+}
+static void *callers_resize(void *user, void *block, size_t old_size, size_t new_size) {
+  (void)user, (void)old_size;
+  return realloc(block, new_size);
+}
+static void callers_release(void *user, void *block, size_t size) {
+  (void)user, (void)size;
+  asked_of_caller--;
+  free(block);
+}
+
+static void large_blocks(void **state) {
+  (void)state;
+  const quoin_allocator callers = {callers_alloc, callers_resize, callers_release, NULL, 0}, *const allocators[2] = {NULL, &callers};
+  for (int which = 0; which < 2; which++) {
+    qn_mem mem;
+    qn_mem_init(&mem, allocators[which]);
+    for (size_t size = (size_t)1 << 20; size < (size_t)20 << 20; size += 777777) {
+      char *a = qn_alloc_line(&mem, size), *b = qn_alloc_line(&mem, size);
+      assert_true(a && b && (uintptr_t)a % 64 == 0 && (uintptr_t)b % 64 == 0);
+      memset(a, 1, size), memset(b, 2, size);
+      assert_true(a[0] == 1 && a[size - 1] == 1 && mem.used >= 2 * size);
+      assert_int_equal(asked_of_caller, 2 * which);
+      qn_free_line(&mem, a, size);
+      assert_true(b[0] == 2 && b[size / 2] == 2 && b[size - 1] == 2);
+      qn_free_line(&mem, b, size);
+      assert_int_equal(mem.used, 0);
+      assert_int_equal(asked_of_caller, 0);
+    }
+  }
+  qn_mem mem;
+  qn_mem_init(&mem, &(quoin_allocator){.limit = 10000000});
+  char *a = qn_alloc_line(&mem, 6000000);
+  assert_non_null(a);
+  assert_null(qn_alloc_line(&mem, 6000000));
+  qn_free_line(&mem, a, 6000000);
+  assert_int_equal(mem.used, 0);
+  assert_null(qn_alloc_line(&mem, SIZE_MAX / 4)); /* more than there is, booked nowhere */
+  assert_int_equal(mem.used, 0);
+}
+
 static void arenas_go_back_to_their_marks(void **state) {
   (void)state;
   qn_mem mem;
@@ -132,7 +179,7 @@ static void arenas_are_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_limit_is_kept), cmocka_unit_test(blocks_grow), cmocka_unit_test(lines_are_aligned),
+    cmocka_unit_test(the_limit_is_kept), cmocka_unit_test(blocks_grow), cmocka_unit_test(lines_are_aligned), cmocka_unit_test(large_blocks),
     cmocka_unit_test(arenas_go_back_to_their_marks), cmocka_unit_test(arenas_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
