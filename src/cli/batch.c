@@ -13,8 +13,8 @@
 
 enum {
   MOST_THREADS = 256, /* the library uses no more either */
-  BLOCK = 1 << 20, /* bytes of input taken at once, and the longest line */
-  CHUNK = 1 << 17, /* bytes of input one thread takes at once, at most */
+  BLOCK = 1 << 22, /* bytes of input taken at once, and the longest line */
+  CHUNK = 3 << 16, /* bytes of input one thread takes at once, at most: some 4000 lines of rays */
   FEWEST = 1 << 8, /* and at least */
   SPILL = 1 << 20 /* bytes of answers a thread keeps while others have to write first */
 };
@@ -110,7 +110,7 @@ typedef struct rows {
   size_t count;
   cli_row row[CLI_ROWS];
   uint64_t line[CLI_ROWS];
-  const char *numbers[CLI_ROWS * CLI_MAX_NUMBERS];
+  const char *numbers[CLI_ROWS * CLI_MAX_NUMBERS + CLI_ROW_ROOM]; /* row after row; the last one may be one too long */
 } rows;
 
 static quoin_status answer_rows(block *b, unsigned thread, quoin_work *work, const rows *r, cli_text *text, size_t first, size_t *done) {
@@ -161,7 +161,7 @@ static void answer(block *b, unsigned thread, size_t i, slot *s) {
     end = memchr(line, '\n', (size_t)(b->chunks[i].end - line));
     end = end ? end : b->chunks[i].end; /* the last line of a file may lack its end; the byte after it is ours */
     cli_row *row = &r.row[r.count];
-    cli_row_cut(row, line, end);
+    cli_row_cut(row, r.numbers + r.count * kind->numbers, line, end);
     if (row->count == 0) {
       continue;
     }
@@ -171,7 +171,6 @@ static void answer(block *b, unsigned thread, size_t i, slot *s) {
       s->fault = s->fault.status == QUOIN_OK ? fault : s->fault;
       return;
     }
-    memcpy(r.numbers + r.count * kind->numbers, row->numbers, kind->numbers * sizeof *r.numbers);
     r.line[r.count++] = number;
     if (r.count == most) {
       answer_waiting(b, thread, i, work, &r, s);

@@ -7,7 +7,7 @@
 #include "cli/out.h"
 #include "cli/rows.h"
 
-enum { CLI_ROWS = 2048 }; /* rows of lines that are answered at once, at most */
+enum { CLI_ROWS = 4096 }; /* rows of lines that are answered at once, at most */
 
 typedef struct cli_batch {
   const cli_common *common;

@@ -49,7 +49,7 @@ static void role_text(uint32_t role, char *text, size_t size) {
 /* --- text: one line a ray, fields between blanks, or between tabs when names are among them -------------------------- */
 
 static void put_end(const context *c, const quoin_end *end, cli_text *text) {
-  cli_puts(text, c->surfaces ? "\t" : " ");
+  cli_put(text, c->surfaces ? "\t" : " ", 1);
   cli_put_number(text, end->t);
   if (c->surfaces && end->part == QUOIN_NO_PART) {
     cli_puts(text, "\t-\t-");
@@ -63,7 +63,12 @@ static void put_end(const context *c, const quoin_end *end, cli_text *text) {
 }
 
 static void put_stretches(const context *c, size_t count, const quoin_interval *stretches, cli_text *text) {
-  cli_put_number(text, (double)count); /* some hundreds at most, and as %zu below 10^17 */
+  if (count < 10) { /* nearly always */
+    const char digit = (char)('0' + count);
+    cli_put(text, &digit, 1);
+  } else {
+    cli_put_number(text, (double)count); /* some hundreds at most, and as %zu below 10^17 */
+  }
   for (size_t i = 0; i < count; i++) {
     put_end(c, &stretches[i].enter, text);
     put_end(c, &stretches[i].leave, text);
@@ -83,7 +88,7 @@ static void put_text(const context *c, const quoin_intervals *a, cli_text *text)
       put_end(c, &a->contacts[i], text);
     }
   }
-  cli_puts(text, "\n");
+  cli_put(text, "\n", 1);
 }
 
 /* --- JSON: one object a ray ------------------------------------------------------------------------------------------ */

@@ -9,8 +9,40 @@ enum { PART, BLANK, COMMENT, NUL };
 static const unsigned char KIND[256] = {['\0'] = NUL, [' '] = BLANK, ['\t'] = BLANK, [','] = BLANK, ['\r'] = BLANK, ['\v'] = BLANK, ['\f'] = BLANK, ['#'] = COMMENT};
 static unsigned kind_of(const char *at) { return KIND[(unsigned char)*at]; }
 
-void cli_row_cut(cli_row *row, char *line, char *end) {
+/* Eight bytes, the first one lowest: one load where that is how memory is read. */
+static uint64_t eight(const char *at) {
+  uint64_t v = 0;
+  for (int i = 0; i < 8; i++) {
+    v |= (uint64_t)(unsigned char)at[i] << (8 * i);
+  }
+  return v;
+}
+
+/* The first byte from `at` on, before `end`, that is no part of a number; or end. All such bytes lie below '-', and so do few others; the lowest bit of `less` is that of the
+   first byte below it. */
+static char *part_end(char *at, const char *end) {
+  const uint64_t each = UINT64_C(0x0101010101010101);
+  while (end - at >= 8) {
+    const uint64_t v = eight(at), less = (v - each * '-') & ~v & each * 128;
+    if (less == 0) {
+      at += 8;
+      continue;
+    }
+    at += ((less & (~less + 1)) >> 7) * UINT64_C(0x0001020304050607) >> 56;
+    if (kind_of(at) != PART) {
+      return at;
+    }
+    at++;
+  }
+  while (at < end && kind_of(at) == PART) {
+    at++;
+  }
+  return at;
+}
+
+void cli_row_cut(cli_row *row, const char **numbers, char *line, char *end) {
   row->line = line;
+  row->numbers = numbers;
   row->end = end;
   row->count = 0;
   row->junk = NULL;
@@ -24,9 +56,7 @@ void cli_row_cut(cli_row *row, char *line, char *end) {
     }
     char *start = at;
     for (;; at++) {
-      while (at < end && kind_of(at) == PART) {
-        at++;
-      }
+      at = part_end(at, end);
       if (at == end || kind_of(at) != NUL) {
         break;
       }
@@ -35,7 +65,7 @@ void cli_row_cut(cli_row *row, char *line, char *end) {
     int comment = at < end && kind_of(at) == COMMENT;
     unsigned i = row->count++;
     row->numbers[i] = start;
-    row->cut[i] = at;
+    row->cut[i] = (uint32_t)(at - line);
     row->under[i] = *at;
     *at = '\0';
     if (at == end || comment) {
@@ -47,7 +77,7 @@ void cli_row_cut(cli_row *row, char *line, char *end) {
 
 void cli_row_mend(cli_row *row) {
   for (unsigned i = 0; i < row->count; i++) {
-    *row->cut[i] = row->under[i];
+    row->line[row->cut[i]] = row->under[i];
   }
 }
 
@@ -82,7 +112,7 @@ int cli_row_fault(cli_row *row, const cli_row_kind *kind, uint64_t line, cli_fau
   } else {
     int more = row->count > kind->numbers;
     unsigned i = more ? kind->numbers : row->count - 1; /* the first too many, or the last there is; an empty row is no row */
-    mark(fault, row, row->numbers[i], row->cut[i], line);
+    mark(fault, row, row->numbers[i], row->line + row->cut[i], line);
     snprintf(fault->problem, sizeof fault->problem, "a %s is %u numbers: %s", kind->what, kind->numbers, kind->shape);
     fault->reason = more ? "here are more" : "here are fewer";
     fault->code = "Q1003";
@@ -132,7 +162,7 @@ void cli_row_refused(cli_row *row, const quoin_scene *scene, quoin_work *work, q
   }
   cli_row_mend(row);
   unsigned first = bad < row->count ? bad : no_direction ? 3 : 0;
-  mark(fault, row, row->numbers[first], row->cut[bad < row->count ? bad : row->count - 1], line);
+  mark(fault, row, row->numbers[first], row->line + row->cut[bad < row->count ? bad : row->count - 1], line);
 }
 
 void cli_say_fault(const cli_fault *fault, const char *file) {

@@ -5,19 +5,20 @@
 #include <quoin/quoin.h>
 
 #define CLI_MAX_NUMBERS 6 /* a row holds at most: a ray's origin and direction */
+#define CLI_ROW_ROOM (CLI_MAX_NUMBERS + 1) /* and one more, which is wrong */
 
 /* One line, cut into texts in place. */
 typedef struct cli_row {
   char *line, *end; /* the line without its newline */
-  unsigned count; /* numbers found, counting stops at CLI_MAX_NUMBERS + 1 */
-  const char *numbers[CLI_MAX_NUMBERS + 1]; /* ended by NUL in the line itself */
-  char *cut[CLI_MAX_NUMBERS + 1]; /* where the NULs stand */
-  char under[CLI_MAX_NUMBERS + 1]; /* and what they stand on */
   const char *junk; /* a NUL byte of the line itself, or null */
+  const char **numbers; /* ended by NUL in the line itself */
+  unsigned count; /* numbers found, counting stops at CLI_ROW_ROOM */
+  uint32_t cut[CLI_ROW_ROOM]; /* where the NULs stand, from `line` on */
+  char under[CLI_ROW_ROOM]; /* and what they stand on */
 } cli_row;
 
-/* Cuts [line, end) at its blanks; *end must be writable. */
-void cli_row_cut(cli_row *row, char *line, char *end);
+/* Cuts [line, end), of less than 2^32 bytes, at its blanks, with the numbers to be put into `numbers`, which has CLI_ROW_ROOM places; *end must be writable. */
+void cli_row_cut(cli_row *row, const char **numbers, char *line, char *end);
 /* Puts the line back as it was. */
 void cli_row_mend(cli_row *row);
 

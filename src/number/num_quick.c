@@ -32,12 +32,24 @@ static unsigned bits_of(qn_u128 v) {
   return high ? 128 - qn_leading_zeros(high) : 64 - qn_leading_zeros(low);
 }
 
+/* Numbers come in any order, so what depends on their last digits or their sign is computed without branches: no guess would be right. */
+
+/* v as a double, rounded once: without the test that the machine's signed conversion of an unsigned v has need of. */
+QN_INLINE double rounded(uint64_t v) {
+  return 2 * (double)(int64_t)(v >> 1 | (v & 1));
+}
+
+QN_INLINE double with_sign(double v, int negative) {
+  static const double sign[2] = {1, -1};
+  return v * sign[negative];
+}
+
 /* v 2^e for v <= 2^53 and an exponent of usual size: exact. */
 static double scaled(uint64_t v, int e) {
   uint64_t bits = (uint64_t)(e + 1023) << 52;
   double power;
   memcpy(&power, &bits, sizeof power);
-  return (double)v * power;
+  return (double)(int64_t)v * power;
 }
 
 /* The size (q + rest / d) 2^e. */
@@ -51,10 +63,8 @@ QN_INLINE quotient divide(qn_u128 n, int k, int e) {
   uint64_t high = (uint64_t)(n >> 64), low = (uint64_t)n;
   qn_u128 q = (qn_u128)f->reciprocal * high + n;
   uint64_t top = (uint64_t)(q >> 64) + 1, rest = low - top * f->d;
-  if (rest > (uint64_t)q) {
-    top--;
-    rest += f->d;
-  }
+  const uint64_t back = 0 - (uint64_t)(rest > (uint64_t)q);
+  top += back, rest += back & f->d;
   if (QN_UNLIKELY(rest >= f->d)) {
     top++;
     rest -= f->d;
@@ -71,7 +81,7 @@ QN_INLINE uint64_t top_of(const quotient *r, unsigned *cut, uint64_t *low) {
 
 QN_INLINE int rounds_up(const quotient *r, uint64_t top, unsigned cut, uint64_t low) {
   uint64_t half = UINT64_C(1) << (cut - 1);
-  return low > half || (low == half && (r->rest || (top & 1)));
+  return (low > half) | ((low == half) & ((r->rest != 0) | (int)(top & 1)));
 }
 
 static double nearest(const quotient *r) {
@@ -231,12 +241,11 @@ QN_INLINE size_t read_decimal(const char *text, double *nearest_out, int *exact,
   uint64_t low, top = top_of(&r, &cut, &low);
   const int up = rounds_up(&r, top, cut, low);
   double v = scaled(top + (uint64_t)up, r.e + (int)cut);
-  *nearest_out = *text == '-' ? -v : v;
+  *nearest_out = with_sign(v, *text == '-');
   *exact = low == 0 && r.rest == 0;
   if (rest) { /* docs/bounds.md, "Lines of decimals" */
-    double part = (double)low + (double)r.rest / (double)r.d;
-    part = (up ? part - (double)(UINT64_C(1) << cut) : part) * scaled(1, r.e);
-    *rest = *text == '-' ? -part : part;
+    const double part = (double)(int64_t)low + rounded(r.rest) / rounded(r.d);
+    *rest = with_sign((part - (double)((int64_t)up << cut)) * scaled(1, r.e), *text == '-');
   }
   return (size_t)(at - text);
 }

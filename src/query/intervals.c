@@ -61,7 +61,7 @@ quoin_status quoin_ray_intervals(const quoin_scene *scene, quoin_work *work, con
 static quoin_status together(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, size_t first, unsigned want,
                              int (*each)(void *user, size_t i, const quoin_intervals *answer), void *user) {
   uint64_t sure;
-  quoin_status status = qn_sheaf_rays(work, n, rays, NULL, NULL, NULL, &sure);
+  quoin_status status = qn_sheaf_rays(work, n, rays, NULL, 0, NULL, NULL, &sure);
   for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
     const qn_sheaf *sheaf = work->sheaf;
     quoin_intervals one = {sheaf->first[i + 1] - sheaf->first[i], sheaf->found ? sheaf->found + sheaf->first[i] : NULL, 0, work->boundary, 0, work->contacts};

@@ -53,8 +53,10 @@ size_t qn_rays_share(const quoin_scene *scene, size_t n, const quoin_ray *rays, 
 
 /* Whether a packet of these rays pays. */
 int qn_rays_together(const quoin_ray *rays, size_t n);
-/* Puts n rays into the first lanes of a packet of `lanes` lanes. */
-void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays);
+/* Puts n rays into the first lanes of a packet of `lanes` lanes; low: null, or for each ray the rests of its origin and direction (QN_TILE_PAIRS). */
+void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, double (*low)[6]);
+/* The same for a packet of as many lanes that was filled with low and has been through its body, and rays that differ from its own in nothing but their origins and these rests. */
+void qn_packet_move(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, double (*low)[6]);
 /* Answers lane by lane, for whoever has run a packet: by the woven path, and a found lane's parameter, correctly rounded. */
 quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned lane, unsigned want, qn_seen *out);
 quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t);

@@ -336,8 +336,27 @@ static void fill_each(qn_packet *p, unsigned n, const quoin_ray *rays, const uin
 int qn_rays_together(const quoin_ray *rays, size_t n) {
   return go_together(rays, n);
 }
-void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays) {
+void qn_packet_fill(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, double (*low)[6]) {
   fill(packet, IN_ORDER, (unsigned)lanes, (unsigned)n, rays, NULL, 0);
+  packet->tile = low ? QN_TILE_PAIRS : QN_TILE_NONE;
+  for (size_t lane = 0; low && lane < lanes; lane++) {
+    const double *v = low[lane < n ? lane : n - 1];
+    for (int k = 0; k < 3; k++) {
+      packet->olow[k][lane] = v[k], packet->dlow[k][lane] = v[3 + k];
+    }
+  }
+}
+
+void qn_packet_move(qn_packet *packet, size_t lanes, size_t n, const quoin_ray *rays, double (*low)[6]) {
+  packet->live = 0;
+  for (size_t lane = 0; lane < lanes; lane++) {
+    const size_t from = lane < n ? lane : n - 1;
+    for (int k = 0; k < 3; k++) {
+      packet->o[k][lane] = rays[from].o[k], packet->olow[k][lane] = low[from][k];
+    }
+    packet->live |= (uint64_t)(lane < n) << lane;
+  }
+  packet->new_origins = 1, packet->new_directions = 0, packet->kept_ranges = 1;
 }
 
 static quoin_status look_together(quoin_work *work, qn_packet *packet, unsigned lanes, unsigned n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out) {

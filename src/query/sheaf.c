@@ -481,16 +481,6 @@ static quoin_status solve(quoin_work *work) {
   }
 }
 
-static void fill_low(qn_packet *p, size_t lanes, size_t n, double (*low)[6]) {
-  p->tile = QN_TILE_PAIRS;
-  for (size_t lane = 0; lane < lanes; lane++) {
-    const double *v = low[lane < n ? lane : n - 1];
-    for (int k = 0; k < 3; k++) {
-      p->olow[k][lane] = v[k], p->dlow[k][lane] = v[3 + k];
-    }
-  }
-}
-
 /* Whether the solid may hold any of a group's lanes: the program only rises with its literals, so where it is false with all leaves that any lane meets entered, and none
    left that is taken away, no order of ends makes it true. */
 static int may_hold(quoin_work *work, unsigned g) {
@@ -562,16 +552,17 @@ static quoin_status make_rows(quoin_work *work, const bundle *b, uint64_t *sure)
   return round_rows(work, b, lanes);
 }
 
-quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], qn_sheaf_line line, const void *user, uint64_t *sure) {
+quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], int kept, qn_sheaf_line line, const void *user, uint64_t *sure) {
   *sure = 0;
   if (!make(work)) {
     return QUOIN_E_MEMORY;
   }
   qn_sheaf *s = work->sheaf;
   const size_t lanes = n <= QN_FEW ? QN_FEW : QN_LANES;
-  qn_packet_fill(&s->packet, lanes, n, rays);
-  if (low) {
-    fill_low(&s->packet, lanes, n, low);
+  if (kept) {
+    qn_packet_move(&s->packet, lanes, n, rays, low);
+  } else {
+    qn_packet_fill(&s->packet, lanes, n, rays, low);
   }
   quoin_status status = make_rows(work, &(bundle){line, user}, sure);
   if (status != QUOIN_OK) {

@@ -34,8 +34,9 @@ typedef quoin_status (*qn_sheaf_line)(quoin_work *work, const void *user, size_t
 
 /* The stretches of n rays, at most QN_LANES, each with a finite origin and direction, as one packet. *sure: the rays that are answered: of ray i, found from
    first[i] on, in full and as the woven path would; the others are for that path. Rays that do not go together are slow here.
-   low: null, or for each ray the rests of its origin and direction (QN_TILE_PAIRS in wide/packet.h); line, user: null, or the lines where rays are not all of them. */
-quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], qn_sheaf_line line, const void *user, uint64_t *sure);
+   low: null, or for each ray the rests of its origin and direction (QN_TILE_PAIRS in wide/packet.h); kept: the rays differ from those of the last packet of this work in their origins
+   alone, and it had low and a place for as many; line, user: null, or the lines where rays are not all of them. */
+quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], int kept, qn_sheaf_line line, const void *user, uint64_t *sure);
 
 /* The packet to fill in for qn_sheaf_tile, the same each time; null when memory is refused. */
 qn_packet *qn_sheaf_packet(quoin_work *work);

@@ -17,10 +17,10 @@ enum { BLOCK = QN_ACROSS_MOST, FEWEST = 4 * QN_FEW, TOGETHER = QN_FEW }; /* FEWE
 typedef struct kept { size_t first; uint32_t count; int sure; } kept;
 
 struct qn_text_rays {
-  quoin_ray rays[BLOCK], sorted[BLOCK];
-  double low[BLOCK][6], sorted_low[BLOCK][6]; /* rests of origins and directions */
+  quoin_ray rays[BLOCK];
+  double low[BLOCK][6]; /* rests of origins and directions */
   const char *const *text; /* of rays[0] on */
-  uint16_t which[BLOCK];   /* sorted[i] is ray which[i] */
+  uint16_t which[BLOCK];   /* sorted */
   qn_across_room room;
   kept kept[BLOCK];
   quoin_interval *found; size_t found_count, found_capacity;
@@ -97,7 +97,7 @@ static quoin_status answer_in_order(const question *q, size_t n, size_t at) {
   for (size_t used = 0, alone = 0, count; used < n && status == QUOIN_OK; used += count) {
     count = qn_rays_share(q->scene, n - used, b->rays + used, &alone);
     uint64_t sure = 0;
-    status = qn_sheaf_rays(q->work, count, b->rays + used, q->work->text_rays->low + used, line_of_text, b->text + 6 * used, &sure);
+    status = qn_sheaf_rays(q->work, count, b->rays + used, q->work->text_rays->low + used, 0, line_of_text, b->text + 6 * used, &sure);
     for (size_t i = 0; i < count && status == QUOIN_OK; i++) {
       const qn_sheaf *s = q->work->sheaf;
       status = give(q, at + used + i, b->text + 6 * (used + i), sure >> i & 1, s->first[i + 1] - s->first[i], s->found ? s->found + s->first[i] : NULL);
@@ -106,7 +106,7 @@ static quoin_status answer_in_order(const question *q, size_t n, size_t at) {
   return status;
 }
 
-/* Keeps the answers of a packet that began at sorted[at]. */
+/* Keeps the answers of a packet of rays which[at] on. */
 static quoin_status keep(quoin_work *work, size_t at, size_t n, uint64_t sure) {
   qn_text_rays *b = work->text_rays;
   const qn_sheaf *s = work->sheaf;
@@ -131,17 +131,21 @@ static quoin_status answer_sorted(const question *q, size_t n, size_t at) {
     b->which[i] = (uint16_t)i;
   }
   qn_sort_across(b->rays, n, b->which, &b->room);
-  for (size_t i = 0; i < n; i++) {
-    b->sorted[i] = b->rays[b->which[i]];
-    memcpy(b->sorted_low[i], b->low[b->which[i]], sizeof b->low[i]);
-  }
   quoin_status status = QUOIN_OK;
   b->found_count = 0;
   for (size_t used = 0, alone = 0, count; used < n && status == QUOIN_OK; used += count) {
-    count = qn_rays_share(q->scene, n - used < TOGETHER ? n - used : TOGETHER, b->sorted + used, &alone);
+    quoin_ray rays[TOGETHER];
+    double low[TOGETHER][6];
+    const size_t most = n - used < TOGETHER ? n - used : TOGETHER;
+    for (size_t i = 0; i < most; i++) {
+      const size_t from = b->which[used + i];
+      rays[i] = b->rays[from];
+      memcpy(low[i], b->low[from], sizeof low[i]);
+    }
+    count = qn_rays_share(q->scene, most, rays, &alone);
     uint64_t sure = 0;
     const sorted_lines lines = {b, used};
-    status = qn_sheaf_rays(q->work, count, b->sorted + used, b->sorted_low + used, line_of_sorted, &lines, &sure);
+    status = qn_sheaf_rays(q->work, count, rays, low, used != 0, line_of_sorted, &lines, &sure);
     status = status == QUOIN_OK ? keep(q->work, used, count, sure) : status;
   }
   for (size_t i = 0; i < n && status == QUOIN_OK; i++) {
@@ -151,14 +155,14 @@ static quoin_status answer_sorted(const question *q, size_t n, size_t at) {
   return status;
 }
 
-/* Whether n rays go one way, and the first ones are not neighbours already. */
-static int want_sorting(const quoin_scene *scene, size_t n, const quoin_ray *rays) {
+/* Whether n rays go one way, by their rests too, and the first ones are not neighbours already. */
+static int want_sorting(const quoin_scene *scene, size_t n, const qn_text_rays *b) {
   size_t alone = 0;
-  if (n < FEWEST || qn_rays_share(scene, n, rays, &alone) > 1) {
+  if (n < FEWEST || qn_rays_share(scene, n, b->rays, &alone) > 1) {
     return 0;
   }
   for (size_t i = 1; i < n; i++) {
-    if (!qn_same_way(&rays[i], &rays[0])) {
+    if (!qn_same_way(&b->rays[i], &b->rays[0]) || b->low[i][3] != b->low[0][3] || b->low[i][4] != b->low[0][4] || b->low[i][5] != b->low[0][5]) {
       return 0;
     }
   }
@@ -183,7 +187,7 @@ quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, quoin_work 
       status = give(&q, at, rays + 6 * at, 0, 0, NULL);
       at++;
     } else {
-      status = (want_sorting(scene, have, work->text_rays->rays) ? answer_sorted : answer_in_order)(&q, have, at);
+      status = (want_sorting(scene, have, work->text_rays) ? answer_sorted : answer_in_order)(&q, have, at);
       at += have;
     }
   }

@@ -117,8 +117,19 @@ class WrongLines(Case):
         for size in (10, 1000, 3000000):
             self.bad(run("query", m, stdin=rng.randbytes(size)), 2, "<stdin>:")
         self.bad(run("query", m, stdin=b"\0" * 3000000), 2, "<stdin>:")
-        self.bad(run("query", m, stdin=b"\n" * 70000 + b" " * 3000000), 2, "<stdin>:70001:1: error: ")
+        self.bad(run("query", m, stdin=b"\n" * 70000 + b" " * 9000000), 2, "<stdin>:70001:1: error: ")
         self.bad(run("query", m, stdin="1" * 900000 + " 0 0\n"), 2, "<stdin>:1:1: error: ")
+
+    def test_a_number_ends_at_any_place_of_a_line(self):
+        m = self.model("cube(1);")
+        wide = range(1, 21)
+        text = "".join(f"{'0' * n}{between}{'0' * k}{between}1{end}\n" for n in wide for k in (1, 7, 8) for between in (" ", "\t", ",", "\r", "\v", "\f", ", ")
+                       for end in ("", " ", "#2", " # 0 0"))
+        self.good(run("query", m, stdin=text), "boundary\n" * text.count("\n"))
+        for n in wide:
+            self.bad(run("query", m, stdin=b"1 " + b"0" * n + b"\0" + b"0" * 12 + b" 1\n"), 2, f"<stdin>:1:{n + 3}: error: ", "NUL")
+            for between in "!+*$'\x01\x7f\u00e9":
+                self.bad(run("query", m, stdin=f"{'0' * n}{between}00000000 1\n"), 2, "<stdin>:1:", "fewer")
 
     def test_nothing_is_lost_on_many_threads(self):
         m = self.model("cube(1);")

@@ -132,7 +132,7 @@ static void one_bundle(dice *d, const ask *a, const char *text, int model, int b
     size_t first = (size_t)roll(d, QN_LANES - 8), sizes[2] = {QN_LANES, 1 + (size_t)roll(d, QN_FEW)}, begins[2] = {0, first};
     for (int pass = 0; pass < 2; pass++) {
       uint64_t sure;
-      assert_int_equal(qn_sheaf_rays(work, sizes[pass], rays + begins[pass], NULL, NULL, NULL, &sure), QUOIN_OK);
+      assert_int_equal(qn_sheaf_rays(work, sizes[pass], rays + begins[pass], NULL, 0, NULL, NULL, &sure), QUOIN_OK);
       const qn_sheaf *s = work->sheaf;
       for (uint64_t m = s->spans.merged & sure; m; m &= m - 1) { /* lanes merged by wide code: of some ends, and of many */
         const uint32_t ends = s->spans.row_count[qn_trailing_zeros(m)];
@@ -326,7 +326,7 @@ static void long_rays(void **state) {
     asked q = {"a fence\n", isas[k], 0, 0, rays, want, 0};
     assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     uint64_t sure;
-    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, NULL, NULL, NULL, &sure), QUOIN_OK);
+    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, NULL, 0, NULL, NULL, &sure), QUOIN_OK);
     assert_true(__builtin_popcountll(sure) > 60);
     quoin_work_free(work);
   }
@@ -486,7 +486,7 @@ static void deep_program(void **state) {
       assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     }
     uint64_t sure;
-    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, NULL, NULL, NULL, &sure), QUOIN_OK);
+    assert_int_equal(qn_sheaf_rays(work, QN_LANES, rays, NULL, 0, NULL, NULL, &sure), QUOIN_OK);
     assert_true(__builtin_popcountll(sure) > 50);
     quoin_work_free(work);
   }

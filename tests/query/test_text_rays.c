@@ -75,12 +75,15 @@ static void unordered(void **unused) {
   ask a;
   ask_open(&a, text);
   free(text);
-  static const char *const ways[][3] = {{"0", "0", "1"}, {"0.1", "-0.2", "0.7"}, {"1", "2", "-3"}};
+  static const char *const ways[][3] = {{"0", "0", "1"}, {"0.1", "-0.2", "0.7"}, {"1", "2", "-3"}, {"0.1", "-0.2", "0.7"}};
   uint64_t state = 5;
   for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
     const size_t n = w == 0 ? COUNT : 1500;
     for (size_t i = 0; i < n; i++) {
       draw(&state, ways[w], i);
+      if (w == 3 && i % 2) { /* the same double, and another direction */
+        numbers[6 * i + 5] = "0.70000000000000001";
+      }
     }
     if (w == 1) { /* too long for packets: the rest goes on after it */
       numbers[6 * 700] = "0.1234567890123456789012345678901234567890";
@@ -94,7 +97,7 @@ static void unordered(void **unused) {
     quoin_stats stats;
     quoin_work_stats(a.work, &stats);
     print_message("%zu rays, %zu stretches, %zu packets, %zu rays woven\n", n, t.stretches, (size_t)stats.packets, (size_t)stats.exact_rays);
-    assert_true(stats.packets < (w == 0 ? n / 3 : n)); /* they do share packets; fewer where they lie further apart */
+    assert_true(stats.packets < (w == 0 ? n / 3 : n) || w == 3); /* they do share packets; fewer where they lie further apart */
   }
   /* A wrong ray: the answers before it are given. Who wants no more is asked no more. */
   numbers[6 * 900 + 1] = "x";
