@@ -3,9 +3,7 @@
 #include "base/limits.h"
 
 #include <mpfr.h>
-#include <pthread.h>
 #include <sched.h>
-#include <stdatomic.h>
 #include <unistd.h>
 
 unsigned qn_processors(void) {
@@ -27,23 +25,10 @@ unsigned qn_thread_count(unsigned wish) {
   return n < QN_MAX_THREADS ? n : QN_MAX_THREADS;
 }
 
-typedef struct pool {
-  atomic_size_t next;
-  size_t n;
-  atomic_int stop;
-  quoin_status (*body)(void *, unsigned, size_t);
-  void *user;
-} pool;
-
-typedef struct worker {
-  pool *p;
-  unsigned number;
-  size_t failed_at;
-  quoin_status status;
-} worker;
+typedef qn_crew_worker worker;
 
 static void work(worker *w, const quoin_progress *progress) {
-  pool *p = w->p;
+  qn_crew *p = w->crew;
   while (!atomic_load_explicit(&p->stop, memory_order_relaxed)) {
     size_t i = atomic_fetch_add_explicit(&p->next, 1, memory_order_relaxed);
     if (i >= p->n) {
@@ -61,37 +46,92 @@ static void work(worker *w, const quoin_progress *progress) {
   }
 }
 
-static void *run(void *arg) {
-  work(arg, NULL);
+/* A thread of the crew: takes part in each pass that is open when it comes to look. One that comes late finds the next one, or none; nobody waits for it. */
+static void *serve(void *arg) {
+  worker *w = arg;
+  qn_crew *c = w->crew;
+  uint64_t seen = 0;
+  pthread_mutex_lock(&c->lock);
+  while (!c->over) {
+    if (!c->open || c->pass == seen || w->number >= c->wide) {
+      pthread_cond_wait(&c->called, &c->lock);
+      continue;
+    }
+    seen = c->pass;
+    c->busy++;
+    pthread_mutex_unlock(&c->lock);
+    work(w, NULL);
+    pthread_mutex_lock(&c->lock);
+    if (--c->busy == 0) {
+      pthread_cond_signal(&c->left);
+    }
+  }
+  pthread_mutex_unlock(&c->lock);
   mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); /* what exact arithmetic kept for this thread alone would be lost with it */
   return NULL;
 }
 
-quoin_status qn_parallel(unsigned threads, size_t n, quoin_status (*body)(void *, unsigned, size_t), void *user, const quoin_progress *progress) {
-  pool p = {.n = n, .body = body, .user = user};
-  atomic_init(&p.next, 0);
-  atomic_init(&p.stop, 0);
-  worker workers[QN_MAX_THREADS];
-  pthread_t ids[QN_MAX_THREADS];
-  threads = threads > QN_MAX_THREADS ? QN_MAX_THREADS : threads;
-  threads = threads > n ? (unsigned)n : threads;
-  unsigned started = 1;
-  for (; started < threads; started++) {
-    workers[started] = (worker){&p, started, n, QUOIN_OK};
-    if (pthread_create(&ids[started], NULL, run, &workers[started])) {
-      break;
-    }
+void qn_crew_open(qn_crew *c) {
+  c->started = 1;
+  c->wide = c->busy = 0;
+  c->pass = 0;
+  c->open = c->over = 0;
+  pthread_mutex_init(&c->lock, NULL);
+  pthread_cond_init(&c->called, NULL);
+  pthread_cond_init(&c->left, NULL);
+}
+
+quoin_status qn_crew_run(qn_crew *c, unsigned threads, size_t n, quoin_status (*body)(void *, unsigned, size_t), void *user, const quoin_progress *progress) {
+  threads = threads > QN_MAX_THREADS ? QN_MAX_THREADS : threads < 1 ? 1 : threads;
+  threads = threads > n ? (n ? (unsigned)n : 1) : threads;
+  pthread_mutex_lock(&c->lock); /* no pass is open: nobody but this thread looks at what is set here */
+  c->n = n, c->body = body, c->user = user;
+  atomic_store_explicit(&c->next, 0, memory_order_relaxed);
+  atomic_store_explicit(&c->stop, 0, memory_order_relaxed);
+  for (unsigned i = 0; i < threads; i++) {
+    c->workers[i] = (worker){c, i, n, QUOIN_OK};
   }
-  workers[0] = (worker){&p, 0, n, QUOIN_OK};
-  work(&workers[0], progress);
-  for (unsigned i = 1; i < started; i++) {
-    pthread_join(ids[i], NULL);
+  c->wide = threads;
+  c->pass++;
+  c->open = 1;
+  pthread_cond_broadcast(&c->called);
+  pthread_mutex_unlock(&c->lock);
+  while (c->started < threads && pthread_create(&c->ids[c->started], NULL, serve, &c->workers[c->started]) == 0) {
+    c->started++;
   }
-  const worker *first = &workers[0];
-  for (unsigned i = 1; i < started; i++) {
-    if (workers[i].failed_at < first->failed_at) {
-      first = &workers[i];
+  work(&c->workers[0], progress);
+  pthread_mutex_lock(&c->lock);
+  c->open = 0;
+  while (c->busy) {
+    pthread_cond_wait(&c->left, &c->lock);
+  }
+  pthread_mutex_unlock(&c->lock);
+  const worker *first = &c->workers[0];
+  for (unsigned i = 1; i < threads; i++) {
+    if (c->workers[i].failed_at < first->failed_at) {
+      first = &c->workers[i];
     }
   }
   return first->status;
+}
+
+void qn_crew_close(qn_crew *c) {
+  pthread_mutex_lock(&c->lock);
+  c->over = 1;
+  pthread_cond_broadcast(&c->called);
+  pthread_mutex_unlock(&c->lock);
+  for (unsigned i = 1; i < c->started; i++) {
+    pthread_join(c->ids[i], NULL);
+  }
+  pthread_cond_destroy(&c->left);
+  pthread_cond_destroy(&c->called);
+  pthread_mutex_destroy(&c->lock);
+}
+
+quoin_status qn_parallel(unsigned threads, size_t n, quoin_status (*body)(void *, unsigned, size_t), void *user, const quoin_progress *progress) {
+  qn_crew crew;
+  qn_crew_open(&crew);
+  const quoin_status status = qn_crew_run(&crew, threads, n, body, user, progress);
+  qn_crew_close(&crew);
+  return status;
 }

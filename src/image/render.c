@@ -31,6 +31,7 @@ typedef struct rendering {
   unsigned side;           /* side * side samples a refined pixel, */
   sample *pattern;
   unsigned enough;         /* unless its first ones differ by at most so many levels */
+  qn_crew crew;
   qn_tracer *tracers[QN_MAX_THREADS]; /* each made by its thread when it first has work */
 } rendering;
 
@@ -294,7 +295,7 @@ static int report_share(void *user, double done) {
 static quoin_status run_pass(rendering *r, quoin_status (*body)(void *, unsigned, size_t), double from, double size) {
   share s = {&r->options->progress, from, size};
   const quoin_progress progress = {r->options->progress.report ? report_share : NULL, &s};
-  return qn_parallel(qn_thread_count(r->options->threads), r->tiles, body, r, &progress);
+  return qn_crew_run(&r->crew, qn_thread_count(r->options->threads), r->tiles, body, r, &progress);
 }
 
 static void add_stats(quoin_stats *sum, const quoin_stats *one) {
@@ -336,7 +337,7 @@ static quoin_status render_passes(rendering *r) {
   quoin_status status = run_pass(r, first_tile, 0, antialias ? 0.5 : 1);
   const unsigned threads = qn_thread_count(r->options->threads);
   if (status == QUOIN_OK && antialias) {
-    status = qn_parallel(threads, r->tiles, mark_tile, r, NULL);
+    status = qn_crew_run(&r->crew, threads, r->tiles, mark_tile, r, NULL);
   }
   for (int round = 0; status == QUOIN_OK && antialias && round <= QN_REFINE_ROUNDS; round++) {
     size_t wanted = 0;
@@ -348,9 +349,9 @@ static quoin_status render_passes(rendering *r) {
     }
     const unsigned now = wanted < FEW_PIXELS ? 1 : threads;
     memset(r->sided, 0, r->tiles);
-    status = round == 0 ? run_pass(r, refine_tile, 0.5, 0.5) : qn_parallel(now, r->tiles, refine_tile, r, NULL);
+    status = round == 0 ? run_pass(r, refine_tile, 0.5, 0.5) : qn_crew_run(&r->crew, now, r->tiles, refine_tile, r, NULL);
     if (status == QUOIN_OK) {
-      status = qn_parallel(now, r->tiles, follow_tile, r, NULL);
+      status = qn_crew_run(&r->crew, now, r->tiles, follow_tile, r, NULL);
     }
   }
   return status;
@@ -394,7 +395,9 @@ quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *
     }
     r.background[3] = 255;
     r.pass = (qn_first_pass){options->width, options->height, row_bytes, pixels, r.surfaces};
+    qn_crew_open(&r.crew);
     status = render_passes(&r);
+    qn_crew_close(&r.crew);
   } else {
     status = QUOIN_E_MEMORY;
   }

@@ -86,6 +86,25 @@ static void progress_comes_from_the_caller_and_stops(void **state) {
   assert_int_equal(t.count, 20);
 }
 
+/* Loops of one crew, wide and narrow in turn, some shorter than their threads take to start: each index of each once, on no more threads than the loop may have. */
+static void a_crew_runs_loop_after_loop(void **state) {
+  (void)state;
+  qn_crew crew;
+  qn_crew_open(&crew);
+  for (size_t k = 0; k < 400; k++) {
+    static tally t;
+    const unsigned width = widths[k * 7 % (sizeof widths / sizeof *widths)];
+    const size_t n = k % 5 == 0 ? k % 3 : k * 37 % N, from = k % 4 == 3 ? n / 2 : N;
+    t = (tally){.threads = width < QN_MAX_THREADS ? width : QN_MAX_THREADS, .fail_from = from};
+    assert_int_equal(qn_crew_run(&crew, width, n, body, &t, NULL), from < n ? QUOIN_E_LIMIT : QUOIN_OK);
+    assert_int_equal(t.count, from < n ? from : n);
+    for (size_t i = 0; i < t.count; i++) {
+      assert_int_equal(t.done[i], 1);
+    }
+  }
+  qn_crew_close(&crew);
+}
+
 static void counts(void **state) {
   (void)state;
   assert_true(qn_processors() >= 1);
@@ -97,7 +116,7 @@ static void counts(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_index_once), cmocka_unit_test(the_lowest_failure_counts), cmocka_unit_test(progress_comes_from_the_caller_and_stops),
-    cmocka_unit_test(counts),
+    cmocka_unit_test(a_crew_runs_loop_after_loop), cmocka_unit_test(counts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
