@@ -175,8 +175,8 @@ static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const 
   return ctx->failed;
 }
 
-quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
-                       const uint32_t *near_halves, size_t near_count, quoin_side *out) {
+static quoin_status around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
+                           const uint32_t *near_halves, size_t near_count, int held, quoin_side *out) {
   qn_ctx *ctx = qn_scratch_ctx(scratch);
   qn_eval *eval = qn_scratch_eval(scratch);
   qn_mark mark = qn_arena_mark(&ctx->arena);
@@ -203,8 +203,25 @@ quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_p
   } else {
     status = ask_around(&a, ctx, qn_scratch_counts(scratch), point);
   }
-  qn_eval_reset(eval);
+  for (size_t i = 0; i < leaf_count && held; i++) {
+    if (a.failing[i] == 0) {
+      set_leaf(&a, i, 0);
+    }
+  }
+  if (!held) {
+    qn_eval_reset(eval);
+  }
   qn_arena_release(&ctx->arena, mark);
   *out = a.seen == 3 ? QUOIN_BOUNDARY : a.seen == 2 ? QUOIN_INSIDE : QUOIN_OUTSIDE;
   return status;
+}
+
+quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
+                       const uint32_t *near_halves, size_t near_count, quoin_side *out) {
+  return around(scene, scratch, point, leaves, leaf_count, near_halves, near_count, 0, out);
+}
+
+quoin_status qn_around_held(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
+                            const uint32_t *near_halves, size_t near_count, quoin_side *out) {
+  return around(scene, scratch, point, leaves, leaf_count, near_halves, near_count, 1, out);
 }

@@ -8,17 +8,43 @@
    unless their gradients are parallel there. Parallel gradients, and three surfaces or more, are given up: no contact is
    reported there (docs/exactness.md says so).
 
+   Places are taken in their order along the line. The program is kept with the leaves in whose interiors the place lies; only leaves with a half-space that
+   vanishes there are looked at: those that begin, end or touch there, and those in whose surfaces the line runs. So the cost of a place is theirs, not that of all
+   leaves which hold it.
+
    Legend: the gradient of a surface at w-times the point of t is g0 + t g1; two gradients' cross product has components
    c0 + c1 t + c2 t^2; it vanishes at an irrational root of a t^2 + 2 h t + c when it is a multiple of that, or zero. */
 #include "ray/around.h"
 #include "ray/scratch.h"
 
+#include <string.h>
+
+/* The leaves with a half-space that vanishes at the place at hand, and those half-spaces. */
 typedef struct nearby {
   qn_near_leaf *leaves;
-  size_t count;
+  size_t count, capacity;
   uint32_t *halves;
-  size_t half_count;
+  size_t half_count, half_capacity;
 } nearby;
+
+/* What happens at a place to a candidate: it has a surface there; its interior, or a stretch in one of its surfaces, begins; or has ended before. */
+enum { MEETS, BEGINS, ENDS, BEGINS_IN_SURFACE, ENDS_IN_SURFACE };
+typedef struct step { uint32_t place, candidate; uint8_t what; } step;
+
+typedef struct sweep {
+  qn_scratch *s;
+  qn_bound *places; /* in order, each once, all of them away from stretches */
+  size_t count;
+  step *steps;
+  size_t step_count, step_capacity;
+  size_t *first;    /* by place, and one more: of its steps */
+  uint8_t *inside;  /* by candidate: 1: the program holds it, 2: it does but for this place */
+  uint32_t *seen;   /* by candidate: 1 + the last place at which it was looked at */
+  uint32_t *in_surface; /* candidates in whose surfaces the line runs here */
+  uint32_t *at;         /* by candidate: where among them */
+  size_t in_surface_count;
+  nearby near;
+} sweep;
 
 /* The sign of a half-space's q at a place; 0 where it vanishes. */
 static int sign_at(qn_scratch *s, uint32_t half, uint32_t solved, const qn_bound *at) {
@@ -38,39 +64,50 @@ static int sign_at(qn_scratch *s, uint32_t half, uint32_t solved, const qn_bound
   return sign;
 }
 
-/* The leaves whose closed solids hold the place. */
-static int find_nearby(qn_scratch *s, const qn_bound *at, nearby *out) {
-  size_t halves = 0;
-  for (size_t i = 0; i < s->candidate_count; i++) {
-    halves += s->scene->leaves[s->candidates[i]].halves;
+static void hold(sweep *w, uint32_t candidate, int inside) {
+  const qn_leaf *leaf = &w->s->scene->leaves[w->s->candidates[candidate]];
+  w->inside[candidate] = (uint8_t)inside;
+  if (leaf->gate != QN_NO_GATE) {
+    (void)qn_eval_change(&w->s->eval, leaf->gate, inside != leaf->negated ? 1 : -1);
   }
-  *out = (nearby){0};
-  out->leaves = qn_arena_take(&s->ctx.arena, (s->candidate_count + 1) * sizeof *out->leaves);
-  out->halves = qn_arena_take(&s->ctx.arena, (halves + 1) * sizeof *out->halves);
-  if (!out->leaves || !out->halves) {
+}
+
+/* Adds a candidate if its closed solid holds the place and has a surface there. 0: a failure. */
+static int add_near(sweep *w, uint32_t candidate, uint32_t place) {
+  qn_scratch *s = w->s;
+  nearby *near = &w->near;
+  const uint32_t number = s->candidates[candidate];
+  const qn_leaf *leaf = &s->scene->leaves[number];
+  if (w->seen[candidate] == place + 1) {
+    return 1;
+  }
+  w->seen[candidate] = place + 1;
+  if (!qn_grow(s->mem, &near->leaves, &near->capacity, near->count + 1) || !qn_grow(s->mem, &near->halves, &near->half_capacity, near->half_count + leaf->halves)) {
     qn_scratch_fail(s, QUOIN_E_MEMORY);
     return 0;
   }
-  for (size_t i = 0; i < s->candidate_count; i++) {
-    const qn_leaf *leaf = &s->scene->leaves[s->candidates[i]];
-    qn_filter_leaf frame;
-    qn_filter_leaf_begin(&s->filter, leaf->pivot, &frame);
-    qn_near_leaf near = {s->candidates[i], (uint32_t)out->half_count, 0};
-    int holds = 1;
-    for (uint32_t h = leaf->half0; holds && h < leaf->half0 + leaf->halves; h++) {
-      uint32_t solved = qn_solve_half(s, leaf, &frame, h);
-      if (solved == QN_NO_SOLVED) {
-        return 0;
-      }
-      int sign = sign_at(s, h, solved, at);
-      holds = sign <= 0;
-      if (sign == 0) {
-        out->halves[near.first + near.count++] = h;
-      }
+  qn_filter_leaf frame;
+  qn_filter_leaf_begin(&s->filter, leaf->pivot, &frame);
+  qn_near_leaf found = {number, (uint32_t)near->half_count, 0};
+  for (uint32_t h = leaf->half0; h < leaf->half0 + leaf->halves; h++) {
+    uint32_t solved = qn_solve_half(s, leaf, &frame, h);
+    if (solved == QN_NO_SOLVED) {
+      return 0;
     }
-    if (holds) {
-      out->leaves[out->count++] = near;
-      out->half_count += near.count;
+    int sign = sign_at(s, h, solved, &w->places[place]);
+    if (sign > 0) {
+      return 1;
+    }
+    if (sign == 0) {
+      near->halves[found.first + found.count++] = h;
+    }
+  }
+  if (found.count != 0) {
+    near->leaves[near->count++] = found;
+    near->half_count += found.count;
+    if (w->inside[candidate] == 1) { /* it is touched from within */
+      hold(w, candidate, 0);
+      w->inside[candidate] = 2;
     }
   }
   return 1;
@@ -85,7 +122,7 @@ static int touches_at_rational(qn_scratch *s, const nearby *n, qn_int num, qn_in
   point.w = qn_int_mul(&s->ctx, s->line->w, den);
   quoin_side side = QUOIN_OUTSIDE;
   if (s->ctx.failed == QUOIN_OK) {
-    quoin_status status = qn_around(s->scene, s, &point, n->leaves, n->count, n->halves, n->half_count, &side);
+    quoin_status status = qn_around_held(s->scene, s, &point, n->leaves, n->count, n->halves, n->half_count, &side);
     if (status != QUOIN_OK) {
       qn_scratch_fail(s, status);
     }
@@ -162,39 +199,31 @@ static int touches_at_irrational(qn_scratch *s, const nearby *n, const qn_quad *
   }
   int found = 0;
   for (unsigned signs = 0; signs < 1u << count && !found; signs++) {
-    for (size_t i = 0; i < n->count; i++) {
-      const qn_near_leaf *near = &n->leaves[i];
-      int inside = 1;
-      for (uint32_t k = near->first; k < near->first + near->count; k++) {
-        const qn_half *half = &halves[n->halves[k]];
-        /* cppcheck-suppress uninitvar ; a leaf that is near has a half-space, and its surface was entered above */
-        unsigned bit = half->surface == surfaces[0] ? 0 : 1;
-        inside &= (half->side > 0) == (signs >> bit & 1); /* bit set: the form is negative there */
+    for (int undo = 0; undo < 2; undo++) {
+      for (size_t i = 0; i < n->count; i++) {
+        const qn_near_leaf *near = &n->leaves[i];
+        const qn_leaf *leaf = &s->scene->leaves[near->leaf];
+        int inside = leaf->gate != QN_NO_GATE;
+        for (uint32_t k = near->first; k < near->first + near->count; k++) {
+          const qn_half *half = &halves[n->halves[k]];
+          /* cppcheck-suppress uninitvar ; a leaf that is near has a half-space, and its surface was entered above */
+          unsigned bit = half->surface == surfaces[0] ? 0 : 1;
+          inside &= (half->side > 0) == (signs >> bit & 1); /* bit set: the form is negative there */
+        }
+        if (inside) {
+          (void)qn_eval_change(&s->eval, leaf->gate, leaf->negated == undo ? 1 : -1);
+        }
       }
-      const qn_leaf *leaf = &s->scene->leaves[near->leaf];
-      if (inside) {
-        (void)qn_eval_change(&s->weave, leaf->gate, leaf->negated ? -1 : 1);
-      }
+      found |= s->eval.value && !undo;
     }
-    found = s->weave.value;
-    qn_eval_reset(&s->weave);
   }
   return found;
 }
 
-static int away_from(qn_scratch *s, const qn_stretch *list, size_t n, const qn_bound *at) {
-  for (size_t i = 0; i < n; i++) {
-    qn_bound enter = qn_bound_from_place(s, &list[i].enter.place), leave = qn_bound_from_place(s, &list[i].leave.place);
-    if (qn_bound_cmp(s, at, &enter) >= 0 && qn_bound_cmp(s, at, &leave) <= 0) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
-static void classify(qn_scratch *s, const qn_bound *at) {
-  nearby n;
-  if (!find_nearby(s, at, &n) || n.count == 0 || n.half_count == 0) {
+static void classify(sweep *w, const qn_bound *at) {
+  qn_scratch *s = w->s;
+  const nearby *n = &w->near;
+  if (n->half_count == 0) {
     return;
   }
   qn_root root = qn_bound_root(s, at);
@@ -202,7 +231,7 @@ static void classify(qn_scratch *s, const qn_bound *at) {
   if (!root.q) {
     return;
   }
-  int touched = qn_root_rational(&s->ctx, root, &num, &den) ? touches_at_rational(s, &n, num, den) : touches_at_irrational(s, &n, root.q);
+  int touched = qn_root_rational(&s->ctx, root, &num, &den) ? touches_at_rational(s, n, num, den) : touches_at_irrational(s, n, root.q);
   if (!touched) {
     return;
   }
@@ -211,51 +240,202 @@ static void classify(qn_scratch *s, const qn_bound *at) {
     return;
   }
   qn_stop stop = {qn_bound_place(s, at), QN_NO_LEAF, QN_NO_HALF};
-  for (size_t i = 0; i < n.count; i++) { /* the first leaf, in the order of the file, that has a surface there */
-    if (n.leaves[i].count && n.leaves[i].leaf < stop.leaf) {
-      stop.leaf = n.leaves[i].leaf;
-      stop.half = n.halves[n.leaves[i].first];
+  for (size_t i = 0; i < n->count; i++) { /* the first leaf, in the order of the file, that has a surface there */
+    if (n->leaves[i].leaf < stop.leaf) {
+      stop.leaf = n->leaves[i].leaf;
+      stop.half = n->halves[n->leaves[i].first];
     }
   }
   s->contacts[s->contact_count++] = stop;
 }
 
-void qn_weave_contacts(qn_scratch *s, const qn_bound *from, const qn_bound *to) {
+/* --- places ----------------------------------------------------------------------------------------------------------- */
+
+/* Leaves out the places, in order, that lie in a stretch of the list; its stretches are in order too. */
+static size_t keep_away(qn_scratch *s, qn_bound *places, size_t count, const qn_stretch *list, size_t n) {
+  size_t kept = 0, i = 0;
+  for (size_t k = 0; k < n; k++) {
+    qn_bound enter = qn_bound_from_place(s, &list[k].enter.place), leave = qn_bound_from_place(s, &list[k].leave.place);
+    while (i < count && qn_bound_cmp(s, &places[i], &enter) < 0) {
+      places[kept++] = places[i++];
+    }
+    while (i < count && qn_bound_cmp(s, &places[i], &leave) <= 0) {
+      i++;
+    }
+  }
+  while (i < count) {
+    places[kept++] = places[i++];
+  }
+  return kept;
+}
+
+/* Touches and ends of the range, in order, each once, but those in stretches. 0: a failure. */
+static int find_places(sweep *w, const qn_bound *from, const qn_bound *to) {
+  qn_scratch *s = w->s;
   size_t n = s->touch_count + s->event_count, count = 0;
-  qn_bound *places = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *places);
-  if (!places) {
+  qn_event *found = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *found);
+  w->places = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *w->places);
+  if (!found || !w->places || n >= UINT32_MAX) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    return 0;
+  }
+  for (size_t i = 0; i < n; i++) {
+    qn_bound b = i < s->touch_count ? s->touches[i] : s->events[i - s->touch_count].at;
+    if (b.solved != QN_NO_SOLVED && qn_bound_cmp(s, &b, from) >= 0 && qn_bound_cmp(s, to, &b) >= 0) {
+      found[count++] = (qn_event){.at = b};
+    }
+  }
+  qn_order_places(s, found, count);
+  for (size_t i = 0; i < count && qn_scratch_status(s) == QUOIN_OK; i++) {
+    if (w->count == 0 || qn_bound_cmp(s, &w->places[w->count - 1], &found[i].at) != 0) {
+      w->places[w->count++] = found[i].at;
+    }
+  }
+  w->count = keep_away(s, w->places, w->count, s->inside, s->inside_count);
+  w->count = keep_away(s, w->places, w->count, s->boundary, s->boundary_count);
+  return qn_scratch_status(s) == QUOIN_OK;
+}
+
+/* The first place that is not before the bound, or, if `beyond`, that is after it. */
+static size_t search(const sweep *w, const qn_bound *b, int beyond) {
+  size_t low = 0, high = w->count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (qn_bound_cmp(w->s, &w->places[middle], b) < beyond) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+static void add_step(sweep *w, size_t place, size_t candidate, int what) {
+  qn_scratch *s = w->s;
+  if (!qn_grow(s->mem, &w->steps, &w->step_capacity, w->step_count + 1)) {
     qn_scratch_fail(s, QUOIN_E_MEMORY);
     return;
   }
-  for (size_t i = 0; i < n && qn_scratch_status(s) == QUOIN_OK; i++) { /* sorted, each place once */
-    qn_bound b = i < s->touch_count ? s->touches[i] : s->events[i - s->touch_count].at;
-    if (b.solved == QN_NO_SOLVED || qn_bound_cmp(s, &b, from) < 0 || qn_bound_cmp(s, to, &b) < 0) {
-      continue;
+  w->steps[w->step_count++] = (step){(uint32_t)place, (uint32_t)candidate, (uint8_t)what};
+}
+
+/* The steps of one candidate. */
+static void find_steps(sweep *w, size_t candidate) {
+  qn_scratch *s = w->s;
+  const qn_span *spans;
+  int vague;
+  s->touch_count = 0;
+  size_t n = qn_leaf_spans(s, s->candidates[candidate], 1, &spans, &vague);
+  s->counts.leaves--; /* it was counted when the line was woven */
+  for (size_t i = 0; i < n; i++) {
+    size_t begin = search(w, &spans[i].lo, 0), end = search(w, &spans[i].hi, 1);
+    if (!vague && begin < end && qn_bound_cmp(s, &w->places[begin], &spans[i].lo) == 0) {
+      add_step(w, begin++, candidate, MEETS);
     }
-    size_t low = 0, high = count;
-    int there = 0;
-    while (low < high && !there) {
-      size_t middle = low + (high - low) / 2;
-      int order = qn_bound_cmp(s, &places[middle], &b);
-      there = order == 0;
-      if (order < 0) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
+    if (!vague && begin < end && qn_bound_cmp(s, &w->places[end - 1], &spans[i].hi) == 0) {
+      add_step(w, --end, candidate, MEETS);
     }
-    if (there) {
-      continue;
-    }
-    for (size_t k = count; k > low; k--) {
-      places[k] = places[k - 1];
-    }
-    places[low] = b;
-    count++;
-  }
-  for (size_t i = 0; i < count && qn_scratch_status(s) == QUOIN_OK; i++) {
-    if (away_from(s, s->inside, s->inside_count, &places[i]) && away_from(s, s->boundary, s->boundary_count, &places[i])) {
-      classify(s, &places[i]);
+    if (begin < end) {
+      add_step(w, begin, candidate, vague ? BEGINS_IN_SURFACE : BEGINS);
+      add_step(w, end, candidate, vague ? ENDS_IN_SURFACE : ENDS);
     }
   }
+  for (size_t i = 0; i < s->touch_count; i++) {
+    size_t at = search(w, &s->touches[i], 0);
+    if (at < w->count && qn_bound_cmp(s, &w->places[at], &s->touches[i]) == 0) {
+      add_step(w, at, candidate, MEETS);
+    }
+  }
+}
+
+/* By place, else in the order in which they were found. 0: memory. */
+static int order_steps(sweep *w) {
+  step *sorted = qn_arena_take(&w->s->ctx.arena, (w->step_count + 1) * sizeof *sorted);
+  if (!sorted) {
+    qn_scratch_fail(w->s, QUOIN_E_MEMORY);
+    return 0;
+  }
+  for (size_t i = 0; i < w->step_count; i++) { /* those at w->count have no place: nobody asks for them */
+    w->first[w->steps[i].place + 1]++;
+  }
+  for (size_t p = 0; p <= w->count; p++) {
+    w->first[p + 1] += w->first[p];
+  }
+  for (size_t i = 0; i < w->step_count; i++) {
+    sorted[w->first[w->steps[i].place]++] = w->steps[i];
+  }
+  for (size_t p = w->count + 1; p > 0; p--) { /* each had come to where the next begins */
+    w->first[p] = w->first[p - 1];
+  }
+  w->first[0] = 0;
+  memcpy(w->steps, sorted, w->step_count * sizeof *sorted);
+  return 1;
+}
+
+/* --- in order ------------------------------------------------------------------------------------------------------------ */
+
+static void take_place(sweep *w, uint32_t place) {
+  const step *steps = w->steps + w->first[place];
+  size_t n = w->first[place + 1] - w->first[place];
+  w->near.count = w->near.half_count = 0;
+  for (size_t i = 0; i < n; i++) {
+    uint32_t c = steps[i].candidate;
+    if (steps[i].what == BEGINS || steps[i].what == ENDS) {
+      hold(w, c, steps[i].what == BEGINS);
+    } else if (steps[i].what == BEGINS_IN_SURFACE) {
+      w->at[c] = (uint32_t)w->in_surface_count;
+      w->in_surface[w->in_surface_count++] = c;
+    } else if (steps[i].what == ENDS_IN_SURFACE) {
+      uint32_t last = w->in_surface[--w->in_surface_count];
+      w->in_surface[w->at[c]] = last;
+      w->at[last] = w->at[c];
+    }
+  }
+  int good = 1;
+  for (size_t i = 0; i < n && good; i++) {
+    good = steps[i].what != MEETS || add_near(w, steps[i].candidate, place);
+  }
+  for (size_t i = 0; i < w->in_surface_count && good; i++) {
+    good = add_near(w, w->in_surface[i], place);
+  }
+  if (good) {
+    classify(w, &w->places[place]);
+  }
+  for (size_t i = 0; i < n; i++) {
+    if (w->inside[steps[i].candidate] == 2) {
+      hold(w, steps[i].candidate, 1);
+    }
+  }
+}
+
+void qn_weave_contacts(qn_scratch *s, const qn_bound *from, const qn_bound *to) {
+  sweep w = {.s = s};
+  size_t n = s->candidate_count;
+  if (!find_places(&w, from, to) || w.count == 0) {
+    return;
+  }
+  w.first = qn_arena_take(&s->ctx.arena, (w.count + 2) * sizeof *w.first);
+  w.inside = qn_arena_take(&s->ctx.arena, n + 1);
+  w.seen = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *w.seen);
+  w.in_surface = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *w.in_surface);
+  w.at = qn_arena_take(&s->ctx.arena, (n + 1) * sizeof *w.at);
+  if (!w.first || !w.inside || !w.seen || !w.in_surface || !w.at) {
+    qn_scratch_fail(s, QUOIN_E_MEMORY);
+    return;
+  }
+  memset(w.first, 0, (w.count + 2) * sizeof *w.first);
+  memset(w.inside, 0, n + 1);
+  memset(w.seen, 0, (n + 1) * sizeof *w.seen);
+  for (size_t i = 0; i < n && qn_scratch_status(s) == QUOIN_OK; i++) {
+    find_steps(&w, i);
+  }
+  if (qn_scratch_status(s) == QUOIN_OK && order_steps(&w)) {
+    for (uint32_t i = 0; i < w.count && qn_scratch_status(s) == QUOIN_OK; i++) {
+      take_place(&w, i);
+    }
+  }
+  qn_eval_reset(&s->eval);
+  qn_free(s->mem, w.steps, w.step_capacity * sizeof *w.steps);
+  qn_free(s->mem, w.near.leaves, w.near.capacity * sizeof *w.near.leaves);
+  qn_free(s->mem, w.near.halves, w.near.half_capacity * sizeof *w.near.halves);
 }

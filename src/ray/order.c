@@ -131,6 +131,10 @@ void qn_order_events(qn_scratch *s) {
   sort(s, s->events, n, 0);
 }
 
+void qn_order_places(qn_scratch *s, qn_event *events, size_t n) {
+  sort(s, events, n, 0);
+}
+
 void qn_order_group(qn_scratch *s, qn_event *events, size_t n) {
   sort(s, events, n, 1);
 }

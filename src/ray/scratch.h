@@ -156,6 +156,8 @@ void qn_bound_between(qn_scratch *s, const qn_bound *a, const qn_bound *b, qn_in
 void qn_order_candidates(qn_scratch *s);
 /* All events by place, exactly. */
 void qn_order_events(qn_scratch *s);
+/* n events by place, exactly; those at one place keep their order. */
+void qn_order_places(qn_scratch *s, qn_event *events, size_t n);
 /* Events at one place by leaf. */
 void qn_order_group(qn_scratch *s, qn_event *events, size_t n);
 
