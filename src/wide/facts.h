@@ -4,36 +4,17 @@
 
 #include "wide/walk.h"
 
-/* The least and largest of eight neighbouring lanes. */
-QN_INLINE void extremes(const double *v, double *low, double *high) {
-  if (SUB_LANES == 1) {
-    *low = *high = *v;
-    return;
-  }
-  vd a = vload(v), b = a;
-  for (int i = QN_W; i < SUB_LANES; i += QN_W) {
-    vd x = vload(v + i);
-    a = vmin(a, x), b = vmax(b, x);
-  }
-  _Alignas(64) double x[QN_W], y[QN_W];
-  vstore(x, a), vstore(y, b);
-  *low = x[0], *high = y[0];
-  for (int i = 1; i < QN_W; i++) {
-    *low = least(*low, x[i]), *high = most(*high, y[i]);
-  }
-}
-
 static void see_origins(qn_packet *p) {
   for (int i = 0; i < 3; i++) {
     const double off = p->tile == QN_TILE_MOVED ? 2 * QN_U * p->moved[i] : 0; /* a moved start may be small beside what its rounding is a share of */
+    _Alignas(64) double low[SUBS], high[SUBS];
+    sub_extremes(p->o[i], 0, low), sub_extremes(p->o[i], 1, high);
     p->low[i] = INFINITY, p->high[i] = -INFINITY;
     for (int k = 0; k < SUBS; k++) {
-      double low, high;
-      extremes(p->o[i] + k * SUB_LANES, &low, &high);
-      low -= off, high += off;
-      p->omin[i][k] = down(low), p->omax[i][k] = up(high);
-      p->low[i] = least(p->low[i], low), p->high[i] = most(p->high[i], high);
+      low[k] -= off, high[k] += off;
+      p->low[i] = least(p->low[i], low[k]), p->high[i] = most(p->high[i], high[k]);
     }
+    outward(low, high, p->omin[i], p->omax[i]);
   }
 }
 
@@ -96,20 +77,22 @@ static void see_directions(qn_packet *p) {
   }
   p->dd_min = (2 - QN_WIDE_SLACK) * x[0], p->dd_max = QN_WIDE_SLACK * y[0];
   p->d_most = sqrt(p->dd_max), p->idd_most = QN_WIDE_SLACK * QN_WIDE_SLACK * z[0], p->shy = p->idd_most * p->d_most * QN_WIDE_SHY_ROOT;
-  double low, high;
   for (int i = 0; i < 3; i++) {
+    _Alignas(64) double low[SUBS], high[SUBS];
     double dlow = INFINITY, dhigh = -INFINITY;
     int finite = 1;
+    sub_extremes(p->d[i], 0, low), sub_extremes(p->d[i], 1, high);
     for (int k = 0; k < SUBS; k++) {
-      extremes(p->d[i] + k * SUB_LANES, &low, &high);
-      dlow = least(dlow, low), dhigh = most(dhigh, high);
-      extremes(p->inv[i] + k * SUB_LANES, &low, &high);
-      /* Widened away from the true range in either direction, so that the products' rounding cannot matter. */
-      p->imin[i][k] = down(low - fabs(low) * QN_WIDE_FLOAT), p->imax[i][k] = up(high + fabs(high) * QN_WIDE_FLOAT);
-      finite &= isfinite(p->imin[i][k]) && isfinite(p->imax[i][k]);
+      dlow = least(dlow, low[k]), dhigh = most(dhigh, high[k]);
     }
+    sub_extremes(p->inv[i], 0, low), sub_extremes(p->inv[i], 1, high);
+    for (int k = 0; k < SUBS; k++) { /* widened away from the true range in either direction, so that the products' rounding cannot matter */
+      low[k] -= fabs(low[k]) * QN_WIDE_FLOAT, high[k] += fabs(high[k]) * QN_WIDE_FLOAT;
+    }
+    outward(low, high, p->imin[i], p->imax[i]);
     p->all_imin[i] = p->imin[i][0], p->all_imax[i] = p->imax[i][0];
-    for (int k = 1; k < SUBS; k++) {
+    for (int k = 0; k < SUBS; k++) {
+      finite &= isfinite(p->imin[i][k]) && isfinite(p->imax[i][k]);
       p->all_imin[i] = p->imin[i][k] < p->all_imin[i] ? p->imin[i][k] : p->all_imin[i], p->all_imax[i] = p->imax[i][k] > p->all_imax[i] ? p->imax[i][k] : p->all_imax[i];
     }
     p->dabs[i] = most(fabs(dlow), fabs(dhigh));

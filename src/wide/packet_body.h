@@ -309,26 +309,29 @@ typedef struct spots { _Alignas(32) float min[3][8], max[3][8]; float all_min[3]
 
 static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
   const qn_packet *p = w->f.p;
-  for (int i = 0; i < 3; i++) {
-    _Alignas(64) double low[QN_LANES_NOW], high[QN_LANES_NOW];
-    for (int g = 0; g < QN_GROUPS; g++) {
-      int o = g * QN_W;
-      vm in = vmask((unsigned)(mask >> o) & QN_ALL_BITS);
-      vd d = vload(p->d[i] + o), step = vmul(vload(at->t + o), d), x = vadd(vload(p->o[i] + o), step);
-      vd slack = vfma(vadd(vabs(step), vabs(x)), vset(QN_WIDE_SPOT), vmul(vmul(vload(w->tolerance + o), vabs(d)), vset(4)));
+  _Alignas(64) double low[3][QN_LANES_NOW], high[3][QN_LANES_NOW];
+  for (int g = 0; g < QN_GROUPS; g++) {
+    const int o = g * QN_W;
+    const unsigned bits = (unsigned)(mask >> o) & QN_ALL_BITS;
+    const vm in = vmask(bits);
+    const vd t = vload(at->t + o), off = vmul(vload(w->tolerance + o), vset(4)), none = vset(INFINITY);
+    for (int i = 0; i < 3; i++) {
+      if (!bits) {
+        vstore(low[i] + o, none), vstore(high[i] + o, vsub(vset(0), none));
+        continue;
+      }
+      vd d = vload(p->d[i] + o), step = vmul(t, d), x = vadd(vload(p->o[i] + o), step);
+      vd slack = vfma(vadd(vabs(step), vabs(x)), vset(QN_WIDE_SPOT), vmul(off, vabs(d)));
       slack = vadd(slack, vset(2 * QN_U * w->f.share[i]));
-      vstore(low + o, vpick(in, vsub(x, slack), vset(INFINITY)));
-      vstore(high + o, vpick(in, vadd(x, slack), vset(-INFINITY)));
+      vstore(low[i] + o, vpick(in, vsub(x, slack), none));
+      vstore(high[i] + o, vpick(in, vadd(x, slack), vsub(vset(0), none)));
     }
-    s->all_min[i] = INFINITY, s->all_max[i] = -INFINITY;
-    for (int k = 0; k < SUBS; k++) {
-      double least_low, most_high, unused;
-      extremes(low + k * SUB_LANES, &least_low, &unused);
-      extremes(high + k * SUB_LANES, &unused, &most_high);
-      s->min[i][k] = down(least_low), s->max[i][k] = up(most_high);
-      s->all_min[i] = s->min[i][k] < s->all_min[i] ? s->min[i][k] : s->all_min[i];
-      s->all_max[i] = s->max[i][k] > s->all_max[i] ? s->max[i][k] : s->all_max[i];
-    }
+  }
+  for (int i = 0; i < 3; i++) {
+    _Alignas(64) double lows[SUBS], highs[SUBS];
+    sub_extremes(low[i], 0, lows), sub_extremes(high[i], 1, highs);
+    outward(lows, highs, s->min[i], s->max[i]);
+    s->all_min[i] = fleast(fload(s->min[i])), s->all_max[i] = fmost(fload(s->max[i]));
   }
 }
 

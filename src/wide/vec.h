@@ -235,7 +235,8 @@ QN_INLINE vdd vtwo_product(vd a, vd b) {
 }
 
 /* --- eight floats ----------------------------------------------------------------------------------------------- */
-/* ftable: the sums, rounded twice, of two columns and four rows: x0 + y0, x0 + y1, x1 + y0, x1 + y1, and the same with y2 and y3. */
+/* fnarrow: of eight doubles, rounded. fleast, fmost: of eight. veights: the least (most: the largest) of each eight of 64 doubles.
+   ftable: the sums, rounded twice, of two columns and four rows: x0 + y0, x0 + y1, x1 + y0, x1 + y1, and the same with y2 and y3. */
 #if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
 typedef __m256 vf8;
 QN_INLINE vf8 fset(float a) { return _mm256_set1_ps(a); }
@@ -248,6 +249,27 @@ QN_INLINE vf8 ffma(vf8 a, vf8 b, vf8 c) { return _mm256_fmadd_ps(a, b, c); }
 QN_INLINE vf8 fmin8(vf8 a, vf8 b) { return _mm256_min_ps(a, b); }
 QN_INLINE vf8 fmax8(vf8 a, vf8 b) { return _mm256_max_ps(a, b); }
 QN_INLINE unsigned fle(vf8 a, vf8 b) { return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
+QN_INLINE vf8 fnarrow(const double v[8]) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(_mm256_load_pd(v))), _mm256_cvtpd_ps(_mm256_load_pd(v + 4)), 1);
+}
+QN_INLINE float fleast(vf8 v) {
+  __m128 x = _mm_min_ps(_mm256_castps256_ps128(v), _mm256_extractf128_ps(v, 1));
+  x = _mm_min_ps(x, _mm_movehl_ps(x, x));
+  return _mm_cvtss_f32(_mm_min_ss(x, _mm_shuffle_ps(x, x, 1)));
+}
+QN_INLINE float fmost(vf8 v) { return -fleast(_mm256_sub_ps(_mm256_setzero_ps(), v)); }
+QN_INLINE __m256d further(__m256d a, __m256d b, int most) { return most ? _mm256_max_pd(a, b) : _mm256_min_pd(a, b); }
+QN_INLINE void veights(const double v[64], int most, double out[8]) {
+  for (int half = 0; half < 8; half += 4, v += 32) {
+    __m256d x[4];
+    for (int k = 0; k < 4; k++) {
+      x[k] = further(_mm256_load_pd(v + 8 * k), _mm256_load_pd(v + 8 * k + 4), most);
+    }
+    const __m256d a = further(_mm256_unpacklo_pd(x[0], x[1]), _mm256_unpackhi_pd(x[0], x[1]), most);
+    const __m256d b = further(_mm256_unpacklo_pd(x[2], x[3]), _mm256_unpackhi_pd(x[2], x[3]), most);
+    _mm256_store_pd(out + half, further(_mm256_permute2f128_pd(a, b, 0x20), _mm256_permute2f128_pd(a, b, 0x31), most));
+  }
+}
 QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
   const __m256d pair = _mm256_set_pd(x[1], x[1], x[0], x[0]);
   const __m256d first = _mm256_add_pd(pair, _mm256_set_pd(y[1], y[0], y[1], y[0])), second = _mm256_add_pd(pair, _mm256_set_pd(y[3], y[2], y[3], y[2]));
@@ -266,6 +288,22 @@ QN_INLINE vf8 fmin8(vf8 x, vf8 y) { return (vf8){_mm_min_ps(x.a, y.a), _mm_min_p
 QN_INLINE vf8 fmax8(vf8 x, vf8 y) { return (vf8){_mm_max_ps(x.a, y.a), _mm_max_ps(x.b, y.b)}; }
 QN_INLINE unsigned fle(vf8 x, vf8 y) {
   return (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.a, y.a)) | (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.b, y.b)) << 4;
+}
+QN_INLINE vf8 fnarrow(const double v[8]) {
+  return (vf8){_mm_movelh_ps(_mm_cvtpd_ps(_mm_load_pd(v)), _mm_cvtpd_ps(_mm_load_pd(v + 2))), _mm_movelh_ps(_mm_cvtpd_ps(_mm_load_pd(v + 4)), _mm_cvtpd_ps(_mm_load_pd(v + 6)))};
+}
+QN_INLINE float fleast(vf8 v) {
+  __m128 x = _mm_min_ps(v.a, v.b);
+  x = _mm_min_ps(x, _mm_movehl_ps(x, x));
+  return _mm_cvtss_f32(_mm_min_ss(x, _mm_shuffle_ps(x, x, 1)));
+}
+QN_INLINE float fmost(vf8 v) { return -fleast((vf8){_mm_sub_ps(_mm_setzero_ps(), v.a), _mm_sub_ps(_mm_setzero_ps(), v.b)}); }
+QN_INLINE __m128d further(__m128d a, __m128d b, int most) { return most ? _mm_max_pd(a, b) : _mm_min_pd(a, b); }
+QN_INLINE void veights(const double v[64], int most, double out[8]) {
+  for (int k = 0; k < 8; k++, v += 8) {
+    const __m128d x = further(further(_mm_load_pd(v), _mm_load_pd(v + 2), most), further(_mm_load_pd(v + 4), _mm_load_pd(v + 6), most), most);
+    _mm_store_sd(out + k, further(x, _mm_unpackhi_pd(x, x), most));
+  }
 }
 QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
   const __m128d left = _mm_set1_pd(x[0]), right = _mm_set1_pd(x[1]), first = _mm_set_pd(y[1], y[0]), second = _mm_set_pd(y[3], y[2]);

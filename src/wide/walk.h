@@ -66,6 +66,24 @@ QN_INLINE vf8 ups(vf8 f) {
   return fadd(f, steps(f));
 }
 
+/* Of each sub-packet's lanes, the least, or the largest. */
+QN_INLINE void sub_extremes(const double v[QN_LANES_NOW], int largest, double out[SUBS]) {
+#if QN_LANES_NOW == 64
+  veights(v, largest, out);
+#else
+  (void)largest;
+  memcpy(out, v, SUBS * sizeof *out);
+#endif
+}
+/* Floats at most `low` and at least `high`. */
+QN_INLINE void outward(const double low[SUBS], const double high[SUBS], float min[8], float max[8]) {
+#if QN_LANES_NOW >= 8
+  fstore(min, downs(fnarrow(low))), fstore(max, ups(fnarrow(high)));
+#else
+  *min = down(*low), *max = up(*high);
+#endif
+}
+
 /* The lanes of sub-packets: byte k all ones where bit k is set; or, where a sub-packet is one lane, the bits themselves. */
 QN_INLINE uint64_t eights(unsigned bits) {
   if (SUB_LANES == 1) {
