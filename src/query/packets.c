@@ -289,11 +289,14 @@ static int next_batch(batch *b) {
     }
   }
   b->lanes = few_together(b, b->at, &b->count) ? QN_FEW : 1;
-  for (size_t more; b->lanes == 1 && b->at + b->count < b->run && !few_together(b, b->at + b->count, &more);) {
+  for (size_t more; b->lanes == 1 && b->work->takes_turns && b->at + b->count < b->run && !few_together(b, b->at + b->count, &more);) {
     b->count += more;
   }
   return 1;
 }
+
+/* Whether rays that go one by one are walked several at a time (wide/packet.h, QN_EACH_LANE). */
+static int in_turns(const batch *b) { return b->lanes == 1 && b->count > 1 && b->work->takes_turns; }
 
 /* Where ray i of a run goes: into lane i; or as an 8 by 8 tile, row after row. */
 typedef enum order { IN_ORDER, AS_TILE } order;
@@ -396,10 +399,12 @@ quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const ui
   quoin_status status = QUOIN_OK;
   batch b = {.work = work, .rays = rays, .n = n};
   while (status == QUOIN_OK && next_batch(&b)) {
-    if (b.count > 1) {
+    if (b.lanes != 1 || in_turns(&b)) {
       status = look_together(work, &packet, b.lanes, (unsigned)b.count, rays + b.at, on ? on + b.at : NULL, want, out + b.at);
-    } else {
-      status = qn_look_alone(work, rays + b.at, on ? on[b.at] : QUOIN_NO_SURFACE, want, out + b.at);
+      continue;
+    }
+    for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
+      status = qn_look_alone(work, rays + at, on ? on[at] : QUOIN_NO_SURFACE, want, out + at);
     }
   }
   return status;
@@ -432,13 +437,15 @@ quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, un
     } else if (b.lanes == QN_FEW) {
       fill(&packet, IN_ORDER, QN_FEW, (unsigned)b.count, rays + b.at, NULL, b.lanes == b.last);
       status = look_rest(work, &packet, want, (unsigned)b.count, out + b.at);
-    } else if (b.count > 1) {
+    } else if (in_turns(&b)) {
       fill_each(&packet, (unsigned)b.count, rays + b.at, NULL);
       status = look_rest(work, &packet, want, (unsigned)b.count, out + b.at);
     } else {
-      qn_seen seen;
-      status = qn_look_alone(work, rays + b.at, QUOIN_NO_SURFACE, want | QN_LOOK_SURFACE, &seen);
-      out[b.at] = spot_of(&seen);
+      for (size_t at = b.at; at < b.at + b.count && status == QUOIN_OK; at++) {
+        qn_seen seen;
+        status = qn_look_alone(work, rays + at, QUOIN_NO_SURFACE, want | QN_LOOK_SURFACE, &seen);
+        out[at] = spot_of(&seen);
+      }
     }
   }
   return status;
@@ -460,21 +467,24 @@ quoin_status qn_look_blocked_in_order(quoin_work *work, size_t n, const quoin_ra
   quoin_status status = QUOIN_OK;
   batch b = {.work = work, .rays = rays, .n = n};
   while (status == QUOIN_OK && next_batch(&b)) {
+    const unsigned step = b.lanes == 1 && !in_turns(&b) ? 1 : (unsigned)b.count;
     const order way = b.lanes == QN_LANES ? AS_TILE : IN_ORDER;
-    const uint32_t *starts = on ? on + b.at : NULL;
-    if (b.lanes == 1 && b.count > 1) {
-      fill_each(&packet, (unsigned)b.count, rays + b.at, starts);
-    } else {
-      fill(&packet, way, b.lanes, (unsigned)b.count, rays + b.at, starts, b.lanes != 1 && b.lanes == b.last);
-    }
-    packet.any = 1;
-    qn_packet_hits hits;
-    qn_look_run(work, &packet, &hits);
-    for (unsigned i = 0; i < b.count; i++) {
-      const unsigned lane = lane_for(way, i);
-      blocked[b.at + i] = hits.found >> lane & 1;
-      if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
-        status = qn_look_woven_blocked(work, &rays[b.at + i], &blocked[b.at + i]);
+    for (size_t at = b.at; at < b.at + b.count; at += step) {
+      qn_packet_hits hits;
+      const uint32_t *starts = on ? on + at : NULL;
+      if (b.lanes == 1 && step > 1) {
+        fill_each(&packet, step, rays + at, starts);
+      } else {
+        fill(&packet, way, b.lanes, step, rays + at, starts, b.lanes == b.last || at != b.at);
+      }
+      packet.any = 1;
+      qn_look_run(work, &packet, &hits);
+      for (unsigned i = 0; i < step; i++) {
+        const unsigned lane = lane_for(way, i);
+        blocked[at + i] = hits.found >> lane & 1;
+        if (QN_UNLIKELY(hits.unsure >> lane & 1) && status == QUOIN_OK) {
+          status = qn_look_woven_blocked(work, &rays[at + i], &blocked[at + i]);
+        }
       }
     }
   }

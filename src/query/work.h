@@ -29,6 +29,7 @@ struct quoin_work {
   const qn_wide *wide; /* the packet body in use */
   double apart;        /* about how far leaves are from one another; infinite when that means nothing */
   qn_patience patience;
+  int takes_turns;     /* incoherent rays of an array are walked several at a time: what they walk through is larger than the caches */
 
   /* A point's question (point.c). */
   uint32_t *stamp, now;   /* by surface: sign[] was found in question `now` */

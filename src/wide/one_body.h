@@ -283,8 +283,8 @@ QN_INLINE void fetch_child(const walk *w, uint32_t child) {
   }
 }
 
-/* Farthest first, so that the nearest is taken next. */
-QN_INLINE int push_children(const walk *w, const qn_bvh_node *n, unsigned meets, const float near[8], waiting *stack, int top) {
+/* Farthest first, so that the nearest is taken next. fetch: all of them are asked of memory. */
+QN_INLINE int push_children(const walk *w, const qn_bvh_node *n, unsigned meets, const float near[8], waiting *stack, int top, int fetch) {
   for (const int first = top; meets; meets &= meets - 1) {
     const unsigned c = qn_trailing_zeros(meets);
     int j = top++;
@@ -292,7 +292,9 @@ QN_INLINE int push_children(const walk *w, const qn_bvh_node *n, unsigned meets,
       stack[j] = stack[j - 1];
     }
     stack[j] = (waiting){near[c], n->child[c]};
-    fetch_child(w, n->child[c]);
+    if (fetch) {
+      fetch_child(w, n->child[c]);
+    }
   }
   return top;
 }
@@ -316,7 +318,7 @@ QN_INLINE int stroll_begin(walk *w, stroll *s, const qn_union *un, const place *
   return !(un->root == QN_NO_ROOT || w->unsure || (any && found));
 }
 
-/* One node or one term. 0: there is no more to do. ahead: what is next is asked of memory, for whoever does something else meanwhile. */
+/* One node or one term. 0: there is no more to do. ahead: what is next is asked of memory and nothing else, for whoever does something else meanwhile. */
 QN_INLINE int stroll_step(walk *w, stroll *s, waiting *stack, int ahead) {
   if (!(s->at & QN_BVH_LEAF)) {
     const qn_bvh_node *n = &w->normal->nodes[s->at];
@@ -324,7 +326,7 @@ QN_INLINE int stroll_step(walk *w, stroll *s, waiting *stack, int ahead) {
     w->counts.nodes++;
     const unsigned meets = node_meets(w, n, s->start, s->last, near);
     if (meets & (meets - 1)) {
-      s->top = push_children(w, n, meets, near, stack, s->top);
+      s->top = push_children(w, n, meets, near, stack, s->top, !ahead);
     } else if (meets) {
       s->at = n->child[qn_trailing_zeros(meets)];
       if (ahead) {
@@ -349,6 +351,9 @@ QN_INLINE int stroll_step(walk *w, stroll *s, waiting *stack, int ahead) {
     /* cppcheck-suppress uninitvar ; what is below top has been pushed */
   } while (stack[--s->top].near > s->last);
   s->at = stack[s->top].node;
+  if (ahead) {
+    fetch_child(w, s->at);
+  }
   return 1;
 }
 

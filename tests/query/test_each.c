@@ -108,6 +108,7 @@ static void arrays(dice *d, const ask *a, quoin_ray rays[64]) {
   setenv("QUOIN_ISA", bodies[(size_t)roll(d, (int)body_count)]->name, 1);
   assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
   unsetenv("QUOIN_ISA");
+  work->takes_turns = roll(d, 4) > 0; /* as for scenes of megabytes */
   static quoin_spot spots[64], spot;
   static quoin_hit hits[64], hit;
   static uint8_t blocked[64], one;
