@@ -34,7 +34,7 @@ QUOIN_API const char *quoin_status_text(quoin_status status);
 QUOIN_API const char *quoin_version(void);
 
 /* A caller's allocator. All three functions are called from any thread that uses the objects made with it, with the
-   size that was asked for. alloc and resize return null to refuse. A null quoin_allocator pointer means malloc.
+   size that was asked for. alloc and resize return null to refuse. A null quoin_allocator pointer means malloc (and large pages).
    GMP and MPFR use their own allocator for temporaries while a model is being read. */
 typedef struct quoin_allocator {
   void *(*alloc)(void *user, size_t size);

@@ -63,6 +63,9 @@ static void release(void *user, void *block, size_t size) {
 }
 
 quoin_allocator cli_memory_allocator(cli_memory *memory) {
+  if (!memory->limit) { /* nothing to count: the library's own way, which has large pages */
+    return (quoin_allocator){0};
+  }
   return (quoin_allocator){.alloc = alloc, .resize = resize, .release = release, .user = memory};
 }
 
