@@ -107,12 +107,16 @@ quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned l
   return status;
 }
 
-/* A tied lane: where its boundary is was certain, who makes it is not. Only what is at that place is woven. */
-static quoin_status look_tied(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, unsigned want, qn_seen *out) {
+/* A tied lane: where its boundary is was certain, who makes it is not. Only what is at that place is woven. known: null, or the place, correctly rounded: it is one place whoever makes it. */
+static quoin_status look_tied(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, unsigned want, const double *known, qn_seen *out) {
   const quoin_ray ray = ray_of(packet, lane);
   const double t = hits->t[lane], e = 2 * hits->error[lane], from = nextafter(t - e, -HUGE_VAL), to = nextafter(t + e, HUGE_VAL);
-  quoin_status status = weave_between(work, &ray, from > ray.from ? from : ray.from, to < ray.to ? to : ray.to, want, out);
-  return status == QUOIN_OK && out->surface == QUOIN_NO_SURFACE ? qn_look_woven(work, packet, lane, want, out) : status;
+  quoin_status status = weave_between(work, &ray, from > ray.from ? from : ray.from, to < ray.to ? to : ray.to, known ? want & ~(unsigned)QN_LOOK_T : want, out);
+  if (status == QUOIN_OK && out->surface == QUOIN_NO_SURFACE) {
+    return qn_look_woven(work, packet, lane, want, out);
+  }
+  out->t = known ? *known : out->t;
+  return status;
 }
 
 quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t) {
@@ -167,9 +171,11 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     unsigned lane = qn_trailing_zeros(m);
     out[lane] = (qn_seen){hits.t[lane], hits.surface[lane], hits.leaf[lane], (uint8_t)(hits.leaving >> lane & 1)};
   }
+  _Alignas(64) double rounded[QN_LANES];
+  uint64_t sure = 0;
   if (want & QN_LOOK_T) {
-    _Alignas(64) double rounded[QN_LANES];
-    uint64_t sure = hits.found & ~woven, *made = &qn_scratch_counts(work->scratch)->exact_forms;
+    uint64_t *made = &qn_scratch_counts(work->scratch)->exact_forms;
+    sure = hits.found;
     if (packet->few == QN_ONE_LANE) {
       sure = sure && work->wide->round_one(work->scene, packet, &hits, rounded, made);
     } else if (packet->few == QN_EACH_LANE) {
@@ -191,7 +197,8 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   }
   for (uint64_t m = woven; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
-    quoin_status status = hits.unsure >> lane & 1 ? qn_look_woven(work, packet, lane, want, &out[lane]) : look_tied(work, packet, &hits, lane, want, &out[lane]);
+    quoin_status status = hits.unsure >> lane & 1 ? qn_look_woven(work, packet, lane, want, &out[lane])
+                                                  : look_tied(work, packet, &hits, lane, want, sure >> lane & 1 ? &rounded[lane] : NULL, &out[lane]);
     *met &= ~((uint64_t)1 << lane);
     *met |= (uint64_t)(out[lane].surface != QUOIN_NO_SURFACE) << lane;
     if (status != QUOIN_OK) {
@@ -212,9 +219,9 @@ quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, qu
   const uint64_t woven = hits.unsure | (hits.tied ? hits.tied & ~qn_alone_lanes(work->scene, packet, &hits, hits.tied) : 0), found = hits.found & ~woven;
   _Alignas(64) double rounded[QN_LANES];
   const double *t = hits.t;
-  uint64_t sure = found;
-  if (want & QN_LOOK_T && found) {
-    sure = work->wide->round(work->scene, packet, &hits, found, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
+  uint64_t sure = found, known = 0;
+  if (want & QN_LOOK_T && hits.found) {
+    known = sure = work->wide->round(work->scene, packet, &hits, hits.found, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
     t = rounded;
   }
   work->wide->spots(&hits, found, t, out, stride);
@@ -226,7 +233,7 @@ quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, qu
   for (uint64_t m = woven; QN_UNLIKELY(m) && status == QUOIN_OK; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
     qn_seen seen;
-    status = hits.unsure >> lane & 1 ? qn_look_woven(work, packet, lane, want, &seen) : look_tied(work, packet, &hits, lane, want, &seen);
+    status = hits.unsure >> lane & 1 ? qn_look_woven(work, packet, lane, want, &seen) : look_tied(work, packet, &hits, lane, want, known >> lane & 1 ? &rounded[lane] : NULL, &seen);
     out[qn_lane_row(lane) * stride + qn_lane_column(lane)] = spot_of(&seen);
   }
   return status;
