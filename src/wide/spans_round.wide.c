@@ -7,10 +7,31 @@
 
 enum { GROUPS = QN_LANES / QN_W };
 
+/* Lanes of a row that all lie on one surface: rounds those of `active`; returns the others. */
+QN_INLINE unsigned row_on_one(const qn_rounding *of, const qn_packet *packet, double *t, int at, unsigned active) {
+  if (!of || of->kind != QN_ROUNDING_AXIS) {
+    return active;
+  }
+  const int axis = of->axis[0];
+  vd out;
+  const unsigned sure = flat_round(vset(of->place[0]), vset(of->place[1]), vload(packet->o[axis] + at), vload(packet->d[axis] + at), vload(packet->inv[axis] + at), &out) & active;
+  vstore(t, vpick(vmask(sure), out, vload(t)));
+  return active & ~sure;
+}
+
 /* Row j of a group: rounds what it can of the lanes in `active`; returns the others that lie on a surface. */
 QN_INLINE unsigned row_of_group(const struct quoin_scene *scene, const qn_packet *packet, double *t, const double *names, int at, unsigned active, uint64_t *made) {
   const qn_rounding *of[QN_W], *any = NULL;
   unsigned flat = 0, others = 0;
+  if (!active) {
+    return 0;
+  }
+  const double *first = &names[qn_trailing_zeros(active)];
+  if (QN_LIKELY((vbits(vsame(vload(names), vset(*first), UINT64_MAX)) & active) == active)) { /* neighbours, mostly */
+    uint64_t name;
+    memcpy(&name, first, sizeof name);
+    return name == QN_SPAN_CUT ? 0 : row_on_one(qn_scene_rounding(scene, (uint32_t)name, made), packet, t, at, active);
+  }
   for (unsigned i = 0; i < QN_W; i++) {
     uint64_t name;
     memcpy(&name, &names[i], sizeof name);
