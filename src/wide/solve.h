@@ -22,6 +22,7 @@ enum { CHECKED = 0 };
 #else
 enum { CHECKED = 1 };
 #endif
+enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED }; /* how a packet's directions lie on an axis */
 #define QN_FAR QN_SPAN_FAR /* an end that is not there */
 #define QN_NOBODY 0xffffffffu
 
@@ -204,15 +205,29 @@ QN_INLINE void stretch_settle(stretch *s) {
 }
 
 /* --- box --------------------------------------------------------------------------------------------------------- */
-typedef struct box_constants { vd lo[3], hi[3], en[3], plo[3], phi[3]; } box_constants;
+QN_INLINE vd box_error(vd en, vd inv) { return vmul(vmul(en, vabs(inv)), vset(QN_WIDE_SLACK)); }
+
+/* one_way: along that axis no lane goes back or stands: lo is then the plane that they meet first, which may be the upper one. error: of every lane, where `shared` says that they
+   have one direction. */
+typedef struct box_constants {
+  vd lo[3], hi[3], en[3], plo[3], phi[3], error;
+  int one_way[3], shared;
+} box_constants;
 
 QN_INLINE void box_prepare(const packet_facts *f, const qn_piece_box *b, box_constants *k) {
+  k->shared = CHECKED && QN_LANES_NOW > 1 && f->p->tile == QN_TILE_ORIGINS;
+  k->error = vset(0);
   for (int i = 0; i < 3; i++) {
     double size = most(fabs(b->lo[i]), fabs(b->hi[i])) + farthest(f, i, 0);
-    k->lo[i] = vset(b->lo[i]), k->hi[i] = vset(b->hi[i]);
+    const int back = QN_LANES_NOW > 1 && f->p->axis[i] == AXIS_DOWN;
+    k->one_way[i] = back || (QN_LANES_NOW > 1 && f->p->axis[i] == AXIS_UP);
+    k->lo[i] = vset(back ? b->hi[i] : b->lo[i]), k->hi[i] = vset(back ? b->lo[i] : b->hi[i]);
     k->en[i] = bound(QN_WIDE_ROUND * QN_U * size + 2 * b->off + QN_WIDE_TINY);
-    k->plo[i] = vset(payload_bits(payload_of(b->surface[2 * i], b->head.leaf, 0)));
-    k->phi[i] = vset(payload_bits(payload_of(b->surface[2 * i + 1], b->head.leaf, 0)));
+    k->plo[i] = vset(payload_bits(payload_of(b->surface[2 * i + back], b->head.leaf, 0)));
+    k->phi[i] = vset(payload_bits(payload_of(b->surface[2 * i + 1 - back], b->head.leaf, 0)));
+    if (k->shared) {
+      k->error = vmax(k->error, box_error(k->en[i], vset(f->p->inv[i][0])));
+    }
   }
 }
 
@@ -220,16 +235,23 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
   const qn_packet *p = f->p;
   int at = g * QN_W;
   const vd zero = vset(0), far = vset(QN_FAR), near = vset(-QN_FAR), nobody = vset(payload_bits(QN_NOBODY));
-  stretch s = {.a = near, .b = far, .pa = nobody, .pb = nobody, .error = zero, .hit = vmask(QN_ALL_BITS), .unsure = vmask(0)};
+  stretch s = {.a = near, .b = far, .pa = nobody, .pb = nobody, .error = k->error, .hit = vmask(QN_ALL_BITS), .unsure = vmask(0)};
   vd a[3], b[3], pa[3], pb[3];
   for (int i = 0; i < 3; i++) {
     vd o = vload(p->o[i] + at), inv = vload(p->inv[i] + at);
+    if (CHECKED && !k->shared) {
+      s.error = vmax(s.error, box_error(k->en[i], inv));
+    }
+    if (k->one_way[i]) {
+      a[i] = vmul(vsub(k->lo[i], o), inv), b[i] = vmul(vsub(k->hi[i], o), inv);
+      pa[i] = k->plo[i], pb[i] = k->phi[i];
+      continue;
+    }
     vm flat = vandnot(vmask(QN_ALL_BITS), vor(vlt(inv, zero), vlt(zero, inv))), down = vlt(inv, zero);
     vd low = vsub(k->lo[i], o), high = vsub(k->hi[i], o);
     vd t0 = vmul(low, inv), t1 = vmul(high, inv);
     a[i] = vpick(down, t1, t0), b[i] = vpick(down, t0, t1);
     pa[i] = vpick(down, k->phi[i], k->plo[i]), pb[i] = vpick(down, k->plo[i], k->phi[i]);
-    s.error = CHECKED ? vmax(s.error, vmul(vmul(k->en[i], vabs(inv)), vset(QN_WIDE_SLACK))) : zero;
     if (vbits(flat)) { /* along the slab: in it, out of it, or too near to tell */
       vm out = vor(vlt(k->en[i], low), vlt(high, vsub(zero, k->en[i])));
       vm in = vand(vlt(low, vsub(zero, k->en[i])), vlt(k->en[i], high));

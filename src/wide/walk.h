@@ -16,9 +16,6 @@ typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } l
 
 enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK = 7 * QN_BVH_DEPTH + 8, TIES = 4 };
 
-/* How a packet's directions lie on an axis. */
-enum { AXIS_UP, AXIS_DOWN, AXIS_FLAT, AXIS_MIXED };
-
 #if QN_LANES_NOW == 1
 /* A single ray against boxes: which side of a box is met first along each axis, and what makes a plane's place of it: plane inv + near (or far). */
 typedef struct beam {
