@@ -39,6 +39,13 @@
 #define QN_MAX_SCENE_EFFORT (UINT64_C(1) << 31)
 #define QN_SCENE_EFFORT_PER_NODE (1 << 15)
 
+/* Effort, as above, of one question, a ray or a point: in all, and for each leaf of the scene. What costs more than the number of leaves
+   counts: cells next to points in hundreds of surfaces, and stretches or contacts of a line in as many. Met: QUOIN_E_LIMIT from the question. */
+#define QN_MAX_QUESTION_EFFORT (UINT64_C(3) << 30)
+#define QN_QUESTION_EFFORT_PER_LEAF (1 << 15)
+#define QN_EFFORT_CELL 192  /* a sign of a cell, which is the sign of some products */
+#define QN_EFFORT_CHANGE 24 /* a half-space or an event looked at in a cell, and what it changes in the program */
+
 /* Vectors within vectors as values, levels; arithmetic on them may recurse so deep. Met: Q0901 "nested too deeply". */
 #define QN_MAX_VECTOR_DEPTH 64
 

@@ -121,8 +121,8 @@ int cli_row_fault(cli_row *row, const cli_row_kind *kind, uint64_t line, cli_fau
 }
 
 unsigned cli_first_bad_number(const quoin_scene *scene, quoin_work *work, const char *const *numbers, unsigned n) {
-  for (unsigned i = 0; i < n; i++) { /* the library alone decides what a number is */
-    const char *const probe[3] = {numbers[i], "0", "0"};
+  for (unsigned i = 0; i < n; i++) { /* the library alone decides what a number is; far away a point is cheap */
+    const char *const probe[3] = {numbers[i], "7e999", "-3e1000"};
     quoin_side side;
     quoin_status status = quoin_point_side_text(scene, work, probe, &side);
     if (status == QUOIN_E_NUMBER || status == QUOIN_E_LIMIT) {

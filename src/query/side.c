@@ -12,7 +12,7 @@ quoin_status qn_query_side(quoin_work *work, qn_query_point *point, quoin_side *
   if (status != QUOIN_OK) {
     return status;
   }
-  return qn_around(work->scene, work->scratch, &point->point, work->near, work->near_count, work->near_halves, work->near_half_count, out);
+  return qn_around(work->scene, work->scratch, &point->point, work->near, work->near_count, work->near_halves, work->near_half_count, QN_AROUND_POINT, out);
 }
 
 /* Points for wide code, xyz after xyz, with their weights (or null), into verdicts: QN_NOT_SURE for all when there is no normal form. */

@@ -1,4 +1,5 @@
 /* The side of a point that lies on surfaces: the program asked in every cell next to it (design S6). */
+#include "base/limits.h"
 #include "ray/around_cells.h"
 
 #include <stdlib.h>
@@ -64,6 +65,7 @@ typedef struct vanishing { uint32_t surface, leaf; int8_t side; } vanishing; /* 
 
 typedef struct asking {
   const quoin_scene *scene;
+  qn_scratch *scratch;
   qn_eval *eval;
   const qn_near_leaf *leaves;
   size_t leaf_count;
@@ -87,6 +89,7 @@ static void set_leaf(asking *a, size_t i, int inside) {
 /* From one cell to another: what changes with the surfaces whose sides differ. */
 static int ask(void *user, const int8_t *signs) {
   asking *a = user;
+  size_t looked = 0;
   for (size_t i = 0; i < a->n; i++) {
     if (a->signs[i] == signs[i]) {
       continue;
@@ -101,9 +104,10 @@ static int ask(void *user, const int8_t *signs) {
       }
     }
     a->signs[i] = signs[i];
+    looked += a->first[i + 1] - a->first[i];
   }
   a->seen |= a->value ? 2u : 1u;
-  return a->seen == 3;
+  return a->seen == 3 || !qn_scratch_spend(a->scratch, looked + a->n / 32, QN_EFFORT_CHANGE);
 }
 
 static int by_surface(const void *x, const void *y) {
@@ -134,7 +138,7 @@ static void gather(asking *a, const uint32_t *near_halves) {
   a->first[a->n] = (uint32_t)count;
 }
 
-static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point) {
+static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point, int on_line) {
   const quoin_scene *scene = a->scene;
   const uint32_t *surfaces = a->surfaces;
   const size_t n = a->n;
@@ -169,18 +173,19 @@ static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const 
       qn_surface_germ_at(ctx, surface, point, &germs[i]);
     }
   }
-  if (!qn_cells_list(ctx, n, germs, ask, a)) {
+  if (!qn_cells_list(ctx, n, germs, on_line, ask, a)) {
     a->seen = 3;
   }
+  (void)qn_scratch_spend(a->scratch, 0, 1); /* the list has */
   return ctx->failed;
 }
 
-static quoin_status around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
-                           const uint32_t *near_halves, size_t near_count, int held, quoin_side *out) {
+quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
+                       const uint32_t *near_halves, size_t near_count, int how, quoin_side *out) {
   qn_ctx *ctx = qn_scratch_ctx(scratch);
   qn_eval *eval = qn_scratch_eval(scratch);
   qn_mark mark = qn_arena_mark(&ctx->arena);
-  asking a = {.scene = scene, .eval = eval, .leaves = leaves, .leaf_count = leaf_count, .value = eval->value};
+  asking a = {.scene = scene, .scratch = scratch, .eval = eval, .leaves = leaves, .leaf_count = leaf_count, .value = eval->value};
   a.halves = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.halves);
   a.surfaces = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.surfaces);
   a.first = qn_arena_take(&ctx->arena, (near_count + 1) * sizeof *a.first);
@@ -189,6 +194,10 @@ static quoin_status around(const quoin_scene *scene, qn_scratch *scratch, const 
   if (!a.halves || !a.surfaces || !a.first || !a.signs || !a.failing) {
     qn_arena_release(&ctx->arena, mark);
     return QUOIN_E_MEMORY;
+  }
+  if (!qn_scratch_spend(scratch, leaf_count + near_count, 2 * QN_EFFORT_CHANGE)) {
+    qn_arena_release(&ctx->arena, mark);
+    return ctx->failed;
   }
   memset(a.signs, 0, near_count + 1);
   gather(&a, near_halves);
@@ -201,27 +210,17 @@ static quoin_status around(const quoin_scene *scene, qn_scratch *scratch, const 
   if (a.n == 0) {
     a.seen = a.value ? 2u : 1u;
   } else {
-    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point);
+    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point, how == QN_AROUND_LINE);
   }
-  for (size_t i = 0; i < leaf_count && held; i++) {
+  for (size_t i = 0; i < leaf_count && how == QN_AROUND_HELD; i++) {
     if (a.failing[i] == 0) {
       set_leaf(&a, i, 0);
     }
   }
-  if (!held) {
+  if (how != QN_AROUND_HELD) {
     qn_eval_reset(eval);
   }
   qn_arena_release(&ctx->arena, mark);
   *out = a.seen == 3 ? QUOIN_BOUNDARY : a.seen == 2 ? QUOIN_INSIDE : QUOIN_OUTSIDE;
   return status;
-}
-
-quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
-                       const uint32_t *near_halves, size_t near_count, quoin_side *out) {
-  return around(scene, scratch, point, leaves, leaf_count, near_halves, near_count, 0, out);
-}
-
-quoin_status qn_around_held(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
-                            const uint32_t *near_halves, size_t near_count, quoin_side *out) {
-  return around(scene, scratch, point, leaves, leaf_count, near_halves, near_count, 1, out);
 }

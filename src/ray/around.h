@@ -15,12 +15,12 @@ typedef struct qn_near_leaf { uint32_t leaf; uint32_t first, count; } qn_near_le
 
 /* The side of a point, given the leaves that hold it (closed) and their half-spaces that vanish there. The program is left
    at rest. Distinct surfaces that vanish are combined as first-order tangent cones allow; at parallel gradients by second-order
-   forms; where neither suffices QUOIN_BOUNDARY. */
+   forms; where neither suffices QUOIN_BOUNDARY.
+   QN_AROUND_LINE: all surfaces that vanish hold one line. QN_AROUND_HELD: the scratch's program already holds the leaves that have no half-space vanishing there,
+   they are not listed, and it is left as it was. */
+enum { QN_AROUND_POINT, QN_AROUND_LINE, QN_AROUND_HELD };
 quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
-                       const uint32_t *near_halves, size_t near_count, quoin_side *out);
-/* The same where the scratch's program already holds the leaves that have no half-space vanishing there (they are not listed): it is left as it was. */
-quoin_status qn_around_held(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,
-                            const uint32_t *near_halves, size_t near_count, quoin_side *out);
+                       const uint32_t *near_halves, size_t near_count, int how, quoin_side *out);
 
 /* The sign of a surface's form at an exact point, S2's rule applied, and its gradient there (a common positive multiple). */
 int qn_surface_sign_at(qn_ctx *ctx, const qn_exact_surface *surface, const qn_point *point);

@@ -9,12 +9,38 @@
      directions, so that plus and minus a vector inside it and one outside it name its cells (the axes of H are such);
    - a direction in which several leading forms vanish (tangent.c).
    With two cones or more through P their signs against one another are left open, but for what forms prove (forbid). */
+#include "base/limits.h"
 #include "ray/around_cells.h"
 
 #include <string.h>
 
 int qn_cells_done(const qn_cells *cells) {
   return cells->stop || cells->ctx->failed != QUOIN_OK;
+}
+
+int qn_cells_spend(qn_cells *cells, size_t count, unsigned each) {
+  cells->work += (uint64_t)count * each * cells->unit;
+  if (cells->work > QN_CELLS_WORK) {
+    cells->stop = cells->gave_up = 1;
+  }
+  return !qn_cells_done(cells);
+}
+
+/* How much longer products take of numbers as long as these. */
+static uint64_t unit_of(size_t n, const qn_germ *germs) {
+  size_t bits = 0;
+  for (size_t i = 0; i < n; i++) {
+    for (int k = 0; k < 3; k++) {
+      size_t b = qn_int_bits(germs[i].g[k].v);
+      bits = b > bits ? b : bits;
+    }
+    for (int k = 0; k < 6; k++) {
+      size_t b = qn_int_bits(germs[i].h[k].v);
+      bits = b > bits ? b : bits;
+    }
+  }
+  const uint64_t words = bits / 256; /* of 256 bits: four limbs */
+  return 1 + words * words / 4;
 }
 
 static int forbidden(const qn_cells *cells, const int8_t *signs) {
@@ -36,11 +62,14 @@ void qn_cells_give(qn_cells *cells) {
       cells->full[i] = -1;
     }
   }
-  cells->work += cells->n;
-  if (open > QN_CELLS_OPEN || cells->work > QN_CELLS_WORK) {
+  (void)qn_cells_spend(cells, cells->n, 1);
+  if (open > QN_CELLS_OPEN) {
     cells->stop = cells->gave_up = 1;
   }
   while (!qn_cells_done(cells)) {
+    if (open != 0) {
+      (void)qn_cells_spend(cells, cells->forbid_count / 16, 1);
+    }
     if (open == 0 || !forbidden(cells, cells->full)) {
       cells->stop = cells->emit(cells->user, cells->full) != 0;
     }
@@ -65,24 +94,28 @@ void qn_class_difference(qn_ctx *ctx, const qn_germ *a, const qn_germ *b, qn_xin
 
 /* --- sorting into classes ------------------------------------------------------------------------------------------ */
 
-static void classify(qn_cells *cells) {
+static void find_singular(qn_cells *cells) {
   for (size_t i = 0; i < cells->n; i++) {
     qn_germ *germ = &cells->germs[i];
     germ->class = UINT32_MAX;
     germ->orient = 1;
-    germ->singular = 0;
-    if (germ->opaque) {
+    germ->singular = !germ->opaque && qn_x_sign(germ->g[0]) == 0 && qn_x_sign(germ->g[1]) == 0 && qn_x_sign(germ->g[2]) == 0;
+    cells->singular_count += germ->singular;
+  }
+}
+
+static void classify(qn_cells *cells) {
+  for (size_t i = 0; i < cells->n && qn_cells_spend(cells, 1 + cells->class_count, QN_WORK_PARALLEL); i++) {
+    qn_germ *germ = &cells->germs[i];
+    if (germ->opaque || germ->singular) {
       continue;
     }
-    if (qn_x_sign(germ->g[0]) == 0 && qn_x_sign(germ->g[1]) == 0 && qn_x_sign(germ->g[2]) == 0) {
-      germ->singular = 1;
-      cells->singular_count++;
-      continue;
-    }
+    qn_mark mark = qn_arena_mark(&cells->ctx->arena);
     size_t c = 0;
     while (c < cells->class_count && !qn_parallel_x(cells->ctx, cells->germs[cells->classes[c].first].g, germ->g)) {
       c++;
     }
+    qn_arena_release(&cells->ctx->arena, mark);
     qn_class *class = &cells->classes[c];
     if (c == cells->class_count) {
       cells->class_count++;
@@ -155,6 +188,7 @@ static void forbid_cones(qn_cells *cells, size_t a, size_t b) {
 }
 
 static void find_forbids(qn_cells *cells) {
+  qn_mark mark = qn_arena_mark(&cells->ctx->arena);
   for (size_t a = 0; a < cells->n; a++) {
     for (size_t b = a + 1; b < cells->n; b++) {
       const qn_germ *x = &cells->germs[a], *y = &cells->germs[b];
@@ -163,6 +197,7 @@ static void find_forbids(qn_cells *cells) {
       } else if (x->class == y->class && x->class != UINT32_MAX) {
         forbid_in_class(cells, a, b);
       }
+      qn_arena_release(&cells->ctx->arena, mark);
     }
   }
 }
@@ -259,41 +294,92 @@ static int independent(qn_cells *cells) {
   return qn_x_sign(qn_product_x(cells->ctx, germs[classes[0].first].g, across)) != 0;
 }
 
-int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user) {
-  qn_cells cells = {.ctx = ctx, .n = n, .germs = germs, .emit = emit, .user = user};
-  if (qn_cells_fan(ctx, n, germs, emit, user) || ctx->failed != QUOIN_OK) {
-    return ctx->failed == QUOIN_OK;
-  }
-  cells.signs = qn_arena_take(&ctx->arena, 2 * n + 1);
-  cells.order = qn_arena_take(&ctx->arena, (2 * n + 1) * sizeof *cells.order);
-  cells.classes = qn_arena_take(&ctx->arena, (n + 1) * sizeof *cells.classes);
-  if (!cells.signs || !cells.order || !cells.classes) {
-    ctx->failed = QUOIN_E_MEMORY;
-    return 0;
-  }
-  cells.full = cells.signs + n;
-  cells.free = cells.order + n;
-  memset(cells.signs, 0, 2 * n + 1);
-  classify(&cells);
-  if (independent(&cells)) {
-    qn_cells_give(&cells);
-    return !cells.gave_up;
-  }
-  cells.forbids = qn_arena_take(&ctx->arena, (4 * count_pairs(&cells) + 1) * sizeof *cells.forbids);
-  if (!cells.forbids) {
-    ctx->failed = QUOIN_E_MEMORY;
-    return 0;
-  }
-  find_forbids(&cells);
-  for (size_t i = 0; i < n && !qn_cells_done(&cells); i++) {
-    if (germs[i].singular) {
-      give_cone(&cells, i);
+/* Some cells, in which the leading forms have these signs: where answers differ, they differ in these mostly, and no more are asked for. */
+static void give_some(qn_cells *cells) {
+  static const int8_t flags[4][3][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{3, 5, 7}, {7, -3, 2}, {1, 2, -9}}};
+  for (int f = 0; f < 4; f++) {
+    for (int way = -1; way <= 1; way += 2) {
+      qn_mark mark = qn_arena_mark(&cells->ctx->arena);
+      qn_int flag[3][3];
+      int known = 1;
+      for (int k = 0; k < 9; k++) {
+        flag[k / 3][k % 3] = qn_int_from(cells->ctx, way * flags[f][k / 3][k % 3]);
+      }
+      for (size_t i = 0; i < cells->n && known; i++) {
+        cells->full[i] = (int8_t)flag_sign(cells->ctx, &cells->germs[i], (const qn_int(*)[3])flag);
+        known = cells->full[i] != 0;
+      }
+      qn_arena_release(&cells->ctx->arena, mark);
+      if (known && qn_cells_spend(cells, cells->n, 2)) {
+        cells->stop = cells->emit(cells->user, cells->full) != 0;
+      }
+      if (!known || qn_cells_done(cells)) {
+        return;
+      }
     }
   }
-  for (uint32_t c = 0; c < cells.class_count && !qn_cells_done(&cells); c++) {
+}
+
+static void list(qn_cells *cells) {
+  enum { MANY = 16 }; /* few are sorted first: most often they are independent */
+  qn_ctx *ctx = cells->ctx;
+  const size_t n = cells->n;
+  cells->signs = qn_arena_take(&ctx->arena, 2 * n + 1);
+  cells->order = qn_arena_take(&ctx->arena, (2 * n + 1) * sizeof *cells->order);
+  cells->classes = qn_arena_take(&ctx->arena, (n + 1) * sizeof *cells->classes);
+  if (!cells->signs || !cells->order || !cells->classes) {
+    ctx->failed = QUOIN_E_MEMORY;
+    return;
+  }
+  cells->full = cells->signs + n;
+  cells->free = cells->order + n;
+  memset(cells->signs, 0, 2 * n + 1);
+  find_singular(cells);
+  if (n > MANY) {
+    give_some(cells);
+  }
+  classify(cells);
+  if (qn_cells_done(cells)) {
+    return;
+  }
+  if (independent(cells)) {
+    qn_cells_give(cells);
+    return;
+  }
+  if (n <= MANY) {
+    give_some(cells);
+  }
+  if (qn_cells_done(cells) || !qn_cells_spend(cells, count_pairs(cells), QN_WORK_DEFINITE)) {
+    return;
+  }
+  cells->forbids = qn_arena_take(&ctx->arena, (4 * count_pairs(cells) + 1) * sizeof *cells->forbids);
+  if (!cells->forbids) {
+    ctx->failed = QUOIN_E_MEMORY;
+    return;
+  }
+  find_forbids(cells);
+  for (size_t i = 0; i < n && !qn_cells_done(cells); i++) {
+    if (cells->germs[i].singular) {
+      give_cone(cells, i);
+    }
+  }
+  for (uint32_t c = 0; c < cells->class_count && !qn_cells_done(cells); c++) {
     qn_mark mark = qn_arena_mark(&ctx->arena);
-    qn_cells_circle(&cells, c);
+    qn_cells_circle(cells, c);
     qn_arena_release(&ctx->arena, mark);
+  }
+}
+
+int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user) {
+  qn_cells cells = {.ctx = ctx, .n = n, .germs = germs, .emit = emit, .user = user, .unit = unit_of(n, germs)};
+  if (qn_cells_fan(ctx, n, germs, on_line, emit, user) || ctx->failed != QUOIN_OK) {
+    (void)qn_ctx_spend(ctx, n * (size_t)(cells.unit < 4096 ? cells.unit : 4096), QN_EFFORT_CELL * QN_WORK_FAN);
+    return ctx->failed == QUOIN_OK;
+  }
+  list(&cells);
+  (void)qn_ctx_spend(ctx, cells.work < QN_CELLS_WORK ? (size_t)cells.work : QN_CELLS_WORK, QN_EFFORT_CELL); /* what was too much is not done */
+  if (on_line && cells.work > QN_CELLS_WORK && ctx->failed == QUOIN_OK) {
+    ctx->failed = QUOIN_E_LIMIT; /* a point may be undecided, a stretch may not */
   }
   return !cells.gave_up;
 }

@@ -51,23 +51,28 @@ typedef struct qn_cells {
   void *user;
   int stop;
   int gave_up;
-  size_t work; /* signs written */
+  uint64_t work; /* in signs written, about */
+  uint64_t unit; /* of numbers as long as these: 1 for those of some hundred bits */
 } qn_cells;
 
 /* Surfaces whose signs are open at once in one record: 2^12 fillings. Beyond it the list is given up, and whoever asked
    takes the point as undecided (design S6: boundary). */
 enum { QN_CELLS_OPEN = 12 };
-/* Signs written in one list, about: 160 planes through a point, a second of work. Beyond it the list is given up likewise. */
+/* Signs written in one list, and what takes as long: 160 planes through a point, a second of work. Beyond it the list is given up likewise. */
 #define QN_CELLS_WORK ((size_t)1 << 23)
+/* What takes as long as so many signs. */
+enum { QN_WORK_PARALLEL = 4, QN_WORK_ORDER = 8, QN_WORK_DEFINITE = 32, QN_WORK_ROOT = 16, QN_WORK_FAN = 16 };
 
 /* Calls emit for every cell next to P, some more than once. Where second-order forms do not tell whether a combination is
    realisable it is given too (docs/exactness.md lists where): what is given holds every cell, and equals the cells but in those places.
+   on_line: all surfaces are known to hold one line through P; more work than QN_CELLS_WORK is then QUOIN_E_LIMIT.
    0: given up (QN_CELLS_OPEN, QN_CELLS_WORK). ctx->failed tells of failure. Cost: about n^3 products in the worst case. */
-int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user);
+int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user);
 
-/* The same for three planes or more of which all but at most one hold one line (around_fan.c): exactly the cells, in about n log n products. 0: the
-   germs are not such, and none was given. Of germs it reads g and `plane`. */
-int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user);
+/* The same for three planes or more of which all but at most one hold one line, or, if all surfaces are known to hold one line (on_line), for three or more with
+   distinct tangent planes (around_fan.c): exactly the cells, in about n log n products. 0: the germs are not such, and none was given. Of germs it reads g, `plane`
+   and `opaque`. */
+int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user);
 
 /* --- forms and vectors (around_form.c) --- */
 qn_int qn_settled(qn_xint a); /* the value, 0 when its sign is 0 by S2: nothing of a rounding is left to be read as a length */
@@ -91,10 +96,12 @@ int qn_germ_sign(qn_ctx *ctx, const qn_germ *germ, const qn_int v[3]);
 /* --- the record (around_cells.c) --- */
 void qn_cells_give(qn_cells *cells); /* every filling of cells->signs that no forbid excludes */
 int qn_cells_done(const qn_cells *cells);
+/* Counts work, in signs; 0 when the list is given up, or done. */
+int qn_cells_spend(qn_cells *cells, size_t count, unsigned each);
 
 /* --- a walk along a line of parameters with marks at roots (around_walk.c) --- */
 typedef struct qn_walk_mark { qn_root root; uint32_t tag; } qn_walk_mark;
-void qn_walk_sort(qn_ctx *ctx, size_t n, qn_walk_mark *marks);
+void qn_walk_sort(qn_cells *cells, size_t n, qn_walk_mark *marks); /* stable */
 /* The marks at the place of marks[first] end before the index returned. */
 size_t qn_walk_group(qn_ctx *ctx, size_t n, const qn_walk_mark *marks, size_t first);
 /* A rational between marks[at - 1] and marks[at], which are at different places. */

@@ -4,7 +4,11 @@
    Derivation. a is the line, N_i are normals, all orthogonal to it; turned (N or -N) they lie in the half turn that begins with N_0,
    so that M_i comes before M_j when (M_i x M_j).a > 0, and no two are at one angle, for the planes are distinct. In a direction v that turns about the
    line, from a quarter before N_0 on, M_0.v becomes positive first, then M_1.v, and so on; half a turn later they become negative in the same
-   order. So n planes have 2n cells. A plane across the line meets each of them on both its sides. */
+   order. So n planes have 2n cells. A plane across the line meets each of them on both its sides.
+
+   Curved surfaces that all hold the line, and have distinct tangent planes at P, are such a fan too: with coordinates (r, s) across the line each is
+   g.(r, s) + (terms that vanish on the line) near P, so it is a graph over its tangent plane with a slope as small as one likes, and none crosses another but in
+   the line. */
 #include "ray/around_cells.h"
 
 #include <string.h>
@@ -88,16 +92,23 @@ static int give(int8_t *signs, size_t n, size_t across, int (*emit)(void *user, 
   return emit(user, signs);
 }
 
-int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user) {
+static int smooth(const qn_germ *g) {
+  return !g->opaque && (qn_x_sign(g->g[0]) != 0 || qn_x_sign(g->g[1]) != 0 || qn_x_sign(g->g[2]) != 0);
+}
+
+int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user) {
   fan f = {.ctx = ctx, .germs = germs};
   size_t across = n, first = 0;
+  int planes = 1;
   for (size_t i = 0; i < n; i++) {
-    if (!germs[i].plane) {
+    planes &= germs[i].plane;
+    if (!germs[i].plane && !(on_line && smooth(&germs[i]))) {
       return 0;
     }
   }
   qn_mark mark = qn_arena_mark(&ctx->arena);
-  if (n < 3 || !(share_line(&f, n, 0, 1, &across) || share_line(&f, n, 0, 2, &across) || share_line(&f, n, 1, 2, &across)) || ctx->failed != QUOIN_OK) {
+  if (n < 3 || !(share_line(&f, n, 0, 1, &across) || share_line(&f, n, 0, 2, &across) || share_line(&f, n, 1, 2, &across)) || ctx->failed != QUOIN_OK ||
+      (across != n && !planes)) {
     qn_arena_release(&ctx->arena, mark);
     return 0;
   }
@@ -111,7 +122,9 @@ int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int (*emit)(void *
   first = across == 0;
   for (size_t i = first; i < n; i++) {
     if (i != across) {
-      f.turned[i] = (int8_t)(i == first || turn(&f, first, i) > 0 ? 1 : -1);
+      int side = i == first ? 1 : turn(&f, first, i);
+      f.tie |= side == 0;
+      f.turned[i] = (int8_t)(side > 0 ? 1 : -1);
       f.order[f.count++] = (uint32_t)i;
     }
   }

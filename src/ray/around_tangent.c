@@ -170,7 +170,7 @@ static void gather(circle *c) {
     }
   }
   for (uint32_t i = 0; i < c->count; i++) {
-    for (uint32_t j = i + 1; j < c->count; j++) {
+    for (uint32_t j = i + 1; j < c->count && qn_cells_spend(cells, 1, QN_WORK_DEFINITE); j++) {
       add_tie(c, i, j);
     }
   }
@@ -182,6 +182,7 @@ static void gather(circle *c) {
 static int graph_order(const circle *c, const qn_int v[3], const member *a, const member *b) {
   qn_ctx *ctx = c->cells->ctx;
   qn_xint d[6];
+  (void)qn_cells_spend(c->cells, 1, QN_WORK_ORDER);
   member_difference(ctx, a, b, d);
   int sign = qn_x_sign(qn_form_x(ctx, d, v, v));
   if (sign != 0) {
@@ -202,6 +203,9 @@ static int graph_order(const circle *c, const qn_int v[3], const member *a, cons
 static void look(circle *c, const qn_int v[3]) {
   qn_cells *cells = c->cells;
   qn_ctx *ctx = cells->ctx;
+  if (!qn_cells_spend(cells, cells->n, 1)) {
+    return;
+  }
   for (uint32_t i = 0; i < cells->n; i++) {
     const qn_germ *g = &cells->germs[i];
     cells->signs[i] = 0;
@@ -221,7 +225,7 @@ static void look(circle *c, const qn_int v[3]) {
       m->orient = qn_x_sign(qn_form_x(ctx, cells->germs[m->germ].h, v, c->normal));
     }
     size_t at = i;
-    while (at > 0 && graph_order(c, v, m, &c->members[c->order[at - 1]]) < 0) {
+    while (at > 0 && !qn_cells_done(cells) && graph_order(c, v, m, &c->members[c->order[at - 1]]) < 0) {
       c->order[at] = c->order[at - 1];
       at--;
     }
@@ -414,6 +418,6 @@ void qn_cells_circle(qn_cells *cells, uint32_t class) {
   for (gather(&c); c.at_infinity && ctx->failed == QUOIN_OK; gather(&c)) { /* finitely many forms, two roots each */
     qn_combine_int(ctx, one, c.along, one, c.across, c.across);
   }
-  qn_walk_sort(ctx, c.mark_count, c.marks);
+  qn_walk_sort(cells, c.mark_count, c.marks);
   walk(&c);
 }

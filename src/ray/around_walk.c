@@ -5,20 +5,24 @@
 
 #include <string.h>
 
-void qn_walk_sort(qn_ctx *ctx, size_t n, qn_walk_mark *marks) {
-  for (size_t i = 1; i < n && ctx->failed == QUOIN_OK; i++) {
-    qn_walk_mark mark = marks[i];
-    size_t low = 0, high = i;
-    while (low < high) {
-      size_t middle = low + (high - low) / 2;
-      if (qn_root_cmp(ctx, marks[middle].root, mark.root) <= 0) {
-        low = middle + 1;
-      } else {
-        high = middle;
+void qn_walk_sort(qn_cells *cells, size_t n, qn_walk_mark *marks) {
+  qn_ctx *ctx = cells->ctx;
+  qn_walk_mark *other = qn_arena_take(&ctx->arena, (n + 1) * sizeof *other);
+  if (!other) {
+    ctx->failed = QUOIN_E_MEMORY;
+    return;
+  }
+  qn_mark memory = qn_arena_mark(&ctx->arena);
+  for (size_t width = 1; width < n && qn_cells_spend(cells, n, QN_WORK_ROOT); width *= 2) {
+    for (size_t begin = 0; begin + width < n; begin += 2 * width) {
+      size_t middle = begin + width, end = middle + width < n ? middle + width : n, left = width, i = 0, j = middle, k = begin;
+      memcpy(other, marks + begin, left * sizeof *marks);
+      while (i < left && j < end) {
+        marks[k++] = qn_root_cmp(ctx, other[i].root, marks[j].root) <= 0 ? other[i++] : marks[j++];
       }
+      memcpy(marks + k, other + i, (left - i) * sizeof *marks);
     }
-    memmove(marks + low + 1, marks + low, (i - low) * sizeof *marks);
-    marks[low] = mark;
+    qn_arena_release(&ctx->arena, memory);
   }
 }
 

@@ -14,6 +14,7 @@
 
    Legend: the gradient of a surface at w-times the point of t is g0 + t g1; two gradients' cross product has components
    c0 + c1 t + c2 t^2; it vanishes at an irrational root of a t^2 + 2 h t + c when it is a multiple of that, or zero. */
+#include "base/limits.h"
 #include "ray/around.h"
 #include "ray/scratch.h"
 
@@ -35,8 +36,9 @@ typedef struct sweep {
   qn_scratch *s;
   qn_bound *places; /* in order, each once, all of them away from stretches */
   size_t count;
-  step *steps;
+  step *found;
   size_t step_count, step_capacity;
+  step *steps;      /* those found, by place */
   size_t *first;    /* by place, and one more: of its steps */
   uint8_t *inside;  /* by candidate: 1: the program holds it, 2: it does but for this place */
   uint32_t *seen;   /* by candidate: 1 + the last place at which it was looked at */
@@ -82,6 +84,9 @@ static int add_near(sweep *w, uint32_t candidate, uint32_t place) {
     return 1;
   }
   w->seen[candidate] = place + 1;
+  if (!qn_scratch_spend(s, leaf->halves, QN_EFFORT_CHANGE)) {
+    return 0;
+  }
   if (!qn_grow(s->mem, &near->leaves, &near->capacity, near->count + 1) || !qn_grow(s->mem, &near->halves, &near->half_capacity, near->half_count + leaf->halves)) {
     qn_scratch_fail(s, QUOIN_E_MEMORY);
     return 0;
@@ -122,7 +127,7 @@ static int touches_at_rational(qn_scratch *s, const nearby *n, qn_int num, qn_in
   point.w = qn_int_mul(&s->ctx, s->line->w, den);
   quoin_side side = QUOIN_OUTSIDE;
   if (s->ctx.failed == QUOIN_OK) {
-    quoin_status status = qn_around_held(s->scene, s, &point, n->leaves, n->count, n->halves, n->half_count, &side);
+    quoin_status status = qn_around(s->scene, s, &point, n->leaves, n->count, n->halves, n->half_count, QN_AROUND_HELD, &side);
     if (status != QUOIN_OK) {
       qn_scratch_fail(s, status);
     }
@@ -312,11 +317,11 @@ static size_t search(const sweep *w, const qn_bound *b, int beyond) {
 
 static void add_step(sweep *w, size_t place, size_t candidate, int what) {
   qn_scratch *s = w->s;
-  if (!qn_grow(s->mem, &w->steps, &w->step_capacity, w->step_count + 1)) {
+  if (!qn_grow(s->mem, &w->found, &w->step_capacity, w->step_count + 1)) {
     qn_scratch_fail(s, QUOIN_E_MEMORY);
     return;
   }
-  w->steps[w->step_count++] = (step){(uint32_t)place, (uint32_t)candidate, (uint8_t)what};
+  w->found[w->step_count++] = (step){(uint32_t)place, (uint32_t)candidate, (uint8_t)what};
 }
 
 /* The steps of one candidate. */
@@ -350,25 +355,24 @@ static void find_steps(sweep *w, size_t candidate) {
 
 /* By place, else in the order in which they were found. 0: memory. */
 static int order_steps(sweep *w) {
-  step *sorted = qn_arena_take(&w->s->ctx.arena, (w->step_count + 1) * sizeof *sorted);
-  if (!sorted) {
+  w->steps = qn_arena_take(&w->s->ctx.arena, (w->step_count + 1) * sizeof *w->steps);
+  if (!w->steps) {
     qn_scratch_fail(w->s, QUOIN_E_MEMORY);
     return 0;
   }
   for (size_t i = 0; i < w->step_count; i++) { /* those at w->count have no place: nobody asks for them */
-    w->first[w->steps[i].place + 1]++;
+    w->first[w->found[i].place + 1]++;
   }
   for (size_t p = 0; p <= w->count; p++) {
     w->first[p + 1] += w->first[p];
   }
   for (size_t i = 0; i < w->step_count; i++) {
-    sorted[w->first[w->steps[i].place]++] = w->steps[i];
+    w->steps[w->first[w->found[i].place]++] = w->found[i];
   }
   for (size_t p = w->count + 1; p > 0; p--) { /* each had come to where the next begins */
     w->first[p] = w->first[p - 1];
   }
   w->first[0] = 0;
-  memcpy(w->steps, sorted, w->step_count * sizeof *sorted);
   return 1;
 }
 
@@ -435,7 +439,7 @@ void qn_weave_contacts(qn_scratch *s, const qn_bound *from, const qn_bound *to) 
     }
   }
   qn_eval_reset(&s->eval);
-  qn_free(s->mem, w.steps, w.step_capacity * sizeof *w.steps);
+  qn_free(s->mem, w.found, w.step_capacity * sizeof *w.found);
   qn_free(s->mem, w.near.leaves, w.near.capacity * sizeof *w.near.leaves);
   qn_free(s->mem, w.near.halves, w.near.half_capacity * sizeof *w.near.halves);
 }

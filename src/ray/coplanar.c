@@ -13,6 +13,7 @@
      added that no stretch of the line has;
    - two that do not change along the line (cylinders that touch along it: H d = 0, so q(x + t d) = q(x)).
    Else cells are listed at a rational point of each stretch on which a leaf with such a surface is undecided. */
+#include "base/limits.h"
 #include "ray/around_cells.h"
 #include "ray/scratch.h"
 
@@ -33,7 +34,7 @@ typedef struct weaving {
   literal *literals;
   uint32_t *surfaces; /* of the scene: those in which the line runs */
   size_t n;
-  uint8_t *seen;      /* by event: 1: after it the solid is away in some cell, 2: there in some */
+  uint8_t *seen;      /* by event: 1: after it the solid is away in some cell, 2: there in some, 4: that is one for all cells */
 } weaving;
 
 static int make_weaving(weaving *w, qn_scratch *s, const qn_event *events, size_t count) {
@@ -43,6 +44,7 @@ static int make_weaving(weaving *w, qn_scratch *s, const qn_event *events, size_
     halves += events[i].vague ? s->scene->leaves[events[i].leaf].halves : 0;
   }
   *w = (weaving){.s = s, .events = events, .count = count};
+  (void)qn_scratch_spend(s, count + s->solved_count / 16, QN_EFFORT_CHANGE);
   w->first = qn_arena_take(arena, (count + 1) * sizeof *w->first);
   w->literals = qn_arena_take(arena, (halves + 1) * sizeof *w->literals);
   w->surfaces = qn_arena_take(arena, (s->solved_count + 1) * sizeof *w->surfaces);
@@ -55,7 +57,10 @@ static int make_weaving(weaving *w, qn_scratch *s, const qn_event *events, size_
   memset(w->seen, 0, count + 1);
   memset(number, 0, (s->solved_count + 1) * sizeof *number);
   halves = 0;
+  size_t vague = 0;
   for (size_t i = 0; i < count; i++) {
+    vague += events[i].enter ? (size_t)events[i].vague : (size_t)0 - events[i].vague;
+    w->seen[i] = vague == 0 ? 4 : 0;
     const qn_leaf *leaf = &s->scene->leaves[events[i].leaf];
     w->first[i] = halves;
     for (uint32_t h = leaf->half0; events[i].vague && h < leaf->half0 + leaf->halves; h++) {
@@ -78,8 +83,11 @@ static int make_weaving(weaving *w, qn_scratch *s, const qn_event *events, size_
 static int weave_in_cell(void *user, const int8_t *signs) {
   weaving *w = user;
   qn_eval *eval = &w->s->eval;
+  if (!qn_scratch_spend(w->s, w->count, QN_EFFORT_CHANGE)) {
+    return 1;
+  }
   const qn_leaf *leaves = w->s->scene->leaves;
-  unsigned all = 3;
+  unsigned open = 0; /* after some event, not all that may be was seen */
   for (size_t i = 0; i < w->count; i++) {
     const qn_event *e = &w->events[i];
     int holds = 1;
@@ -91,13 +99,14 @@ static int weave_in_cell(void *user, const int8_t *signs) {
       (void)qn_eval_change(eval, leaves[e->leaf].gate, e->enter != leaves[e->leaf].negated ? 1 : -1);
     }
     w->seen[i] |= eval->value ? 2u : 1u;
-    all &= w->seen[i];
+    open |= w->seen[i] < 3;
   }
   qn_eval_reset(eval);
-  return all == 3;
+  return !open;
 }
 
 static quoin_side side_seen(unsigned seen) {
+  seen &= 3;
   return seen == 3 ? QUOIN_BOUNDARY : seen == 2 ? QUOIN_INSIDE : QUOIN_OUTSIDE;
 }
 
@@ -177,7 +186,7 @@ static int weave_in_cells(weaving *w) {
   if (!germs_at(w, 0, germs)) {
     return 0;
   }
-  int listed = planes ? qn_cells_fan(&s->ctx, w->n, germs, weave_in_cell, w) : qn_cells_list(&s->ctx, w->n, germs, weave_in_cell, w);
+  int listed = planes ? qn_cells_fan(&s->ctx, w->n, germs, 1, weave_in_cell, w) : qn_cells_list(&s->ctx, w->n, germs, 1, weave_in_cell, w);
   return listed && s->ctx.failed == QUOIN_OK;
 }
 
@@ -228,6 +237,7 @@ static quoin_side side_between(qn_scratch *s, state *st, const qn_bound *a, cons
   qn_point point;
   point_between(s, a, b, &point);
   size_t halves = 0;
+  (void)qn_scratch_spend(s, st->count, QN_EFFORT_CHANGE);
   for (size_t i = 0; i < st->count; i++) {
     const qn_leaf *leaf = &s->scene->leaves[st->leaves[i].leaf];
     st->near[i] = (qn_near_leaf){st->leaves[i].leaf, (uint32_t)halves, 0};
@@ -241,7 +251,7 @@ static quoin_side side_between(qn_scratch *s, state *st, const qn_bound *a, cons
   }
   quoin_side side = QUOIN_OUTSIDE;
   if (s->status == QUOIN_OK && s->ctx.failed == QUOIN_OK) {
-    quoin_status status = qn_around(s->scene, s, &point, st->near, st->count, st->halves, halves, &side);
+    quoin_status status = qn_around(s->scene, s, &point, st->near, st->count, st->halves, halves, QN_AROUND_LINE, &side);
     if (status != QUOIN_OK) {
       qn_scratch_fail(s, status);
     }
@@ -310,7 +320,7 @@ static size_t last_change(qn_scratch *s, state *st, const qn_event *group, size_
       (void)weave_in_cell(&w, none);
       listed = 1;
     } else {
-      listed = qn_cells_list(&s->ctx, w.n, germs, weave_in_cell, &w);
+      listed = qn_cells_list(&s->ctx, w.n, germs, 1, weave_in_cell, &w);
     }
     last = listed ? n - 1 : 0;
     while (last > 0 && side_seen(w.seen[st->count + last - 1]) == now) {
@@ -362,7 +372,7 @@ static quoin_side side_of(qn_scratch *s, state *st, const qn_bound **a, const qn
 }
 
 /* The turns that are left, and where a stretch from a place on ends: at the next of them, or at next. */
-typedef struct ahead { qn_turn *turns; size_t count, at; } ahead;
+typedef struct ahead { qn_event *turns; size_t count, at; } ahead;
 
 static const qn_bound *stop_after(qn_scratch *s, ahead *h, const qn_bound *place, const qn_bound *next) {
   while (h->at < h->count && qn_bound_cmp(s, &h->turns[h->at].at, place) <= 0) {

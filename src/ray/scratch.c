@@ -1,4 +1,5 @@
 /* One thread's scratch: its making and its questions' beginnings. */
+#include "base/limits.h"
 #include "ray/scratch.h"
 
 quoin_status qn_scratch_new(const quoin_scene *scene, qn_scratch **out) {
@@ -54,6 +55,17 @@ qn_eval *qn_scratch_eval(qn_scratch *s) { return &s->eval; }
 void qn_scratch_begin(qn_scratch *s) {
   qn_arena_release(&s->ctx.arena, (qn_mark){NULL, NULL});
   s->ctx.failed = QUOIN_OK;
+  s->ctx.effort = 0;
   s->status = QUOIN_OK;
   s->line = NULL;
+}
+
+int qn_scratch_spend(qn_scratch *s, size_t count, unsigned each) {
+  (void)qn_ctx_spend(&s->ctx, count, each);
+  if (QN_UNLIKELY(s->ctx.effort > QN_MAX_QUESTION_EFFORT + QN_QUESTION_EFFORT_PER_LEAF * (uint64_t)s->scene->leaf_count)) {
+    qn_scratch_fail(s, QUOIN_E_LIMIT);
+    s->ctx.failed = s->status;
+    return 0;
+  }
+  return 1;
 }

@@ -168,9 +168,9 @@ void qn_order_group(qn_scratch *s, qn_event *events, size_t n);
 size_t qn_leaf_spans(qn_scratch *s, uint32_t leaf, int touches, const qn_span **spans, int *vague);
 
 /* --- turn.c: where what is beside a line in surfaces may change, though it crosses none ------------------------------- */
-typedef struct qn_turn { qn_bound at; uint32_t leaf; } qn_turn; /* at.half and leaf: of a surface that turns there */
-/* In order, from the events' leaves. 0: memory was refused; the context tells of other failures. */
-int qn_find_turns(qn_scratch *s, qn_turn **out, size_t *count);
+/* Events of which `at` and `leaf` are a surface's that turns there; in order, each place once, from the events' leaves. 0: memory was refused; the context tells
+   of other failures. */
+int qn_find_turns(qn_scratch *s, qn_event **out, size_t *count);
 
 /* --- coplanar.c: stretches that run in surfaces (S7); contact.c ----------------------------------------------------- */
 void qn_weave_coplanar(qn_scratch *s, const qn_bound *from, const qn_bound *to);

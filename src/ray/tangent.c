@@ -28,6 +28,7 @@ typedef struct fan {
   line *lines;
   size_t count;
   int curved;     /* some surface leaves the line P + t v */
+  int cones, bent; /* how many are cones, and smooth but no planes */
   uint32_t *meet; /* lines that meet in a point: indices in lines */
   size_t meet_count;
 } fan;
@@ -70,11 +71,13 @@ static void gather(fan *f) {
       qn_xint image[3];
       qn_form_apply(ctx, g->h, f->v, image);
       l->a[0] = image[x], l->a[1] = image[y], l->a[2] = qn_x((qn_int){0, NULL});
+      f->cones++;
       f->count += qn_x_sign(image[x]) != 0 || qn_x_sign(image[y]) != 0; /* else its singular line: left open */
     } else {
       l->a[0] = qn_x_scale(ctx, g->g[x], 2), l->a[1] = qn_x_scale(ctx, g->g[y], 2);
       l->a[2] = qn_form_x(ctx, g->h, f->v, f->v);
       f->curved |= qn_x_sign(l->a[2]) != 0;
+      f->bent += !g->plane;
       f->count++;
     }
   }
@@ -159,6 +162,7 @@ static int share_a_curve(const fan *f) {
    of lines that do not contain it; those that are the line itself take `side` along its normal. */
 static void look(fan *f, const qn_int point[3], const qn_int foot[3], int side) {
   qn_ctx *ctx = f->cells->ctx;
+  (void)qn_cells_spend(f->cells, f->count, 1);
   for (size_t i = 0; i < f->count; i++) {
     const line *l = &f->lines[i];
     int sign = l->same ? l->orient * side : qn_x_sign(qn_dot_x(ctx, l->a, point));
@@ -179,7 +183,8 @@ static void give_vertex(fan *f, const qn_int before[3], const qn_int foot[3], si
   for (size_t i = first; i < end; i++) {
     f->meet[f->meet_count++] = marks[i].tag;
   }
-  if (f->meet_count < 3 || share_a_curve(f)) {
+  (void)qn_cells_spend(f->cells, f->meet_count * f->meet_count, 1);
+  if (f->meet_count < 3 || qn_cells_done(f->cells) || share_a_curve(f)) {
     return;
   }
   look(f, before, foot, 0);
@@ -202,7 +207,7 @@ static void walk(fan *f, size_t walked) {
   qn_walk_mark *marks = take(ctx, f->count, sizeof *marks);
   size_t mark_count = 0, same = 0;
   int cone = 0, bent = 0;
-  if (ctx->failed != QUOIN_OK) {
+  if (ctx->failed != QUOIN_OK || !qn_cells_spend(cells, f->count, QN_WORK_ORDER)) {
     return;
   }
   for (size_t i = 0; i < f->count; i++) {
@@ -228,7 +233,7 @@ static void walk(fan *f, size_t walked) {
   if (!f->curved && !(cone && bent)) {
     return; /* first order shows it all */
   }
-  qn_walk_sort(ctx, mark_count, marks);
+  qn_walk_sort(cells, mark_count, marks);
   for (size_t at = 0; !qn_cells_done(cells);) {
     qn_int num, den, point[3];
     if (at != 0 && at < mark_count) {
@@ -264,8 +269,14 @@ void qn_cells_direction(qn_cells *cells, const qn_int v[3]) {
   if (ctx->failed != QUOIN_OK) {
     return;
   }
+  (void)qn_cells_spend(cells, cells->n, 4);
   gather(&f);
+  if (!f.curved && (f.cones == 0 || f.bent == 0)) {
+    return; /* first order shows it all, whichever line is walked */
+  }
   for (size_t i = 0; i < f.count && !qn_cells_done(cells); i++) {
+    qn_mark mark = qn_arena_mark(&ctx->arena);
     walk(&f, i);
+    qn_arena_release(&ctx->arena, mark);
   }
 }

@@ -9,10 +9,9 @@
      Of developable surfaces e is constant and a_i, a_j are linear in t; of doubly ruled ones a_i : a_j is constant and e is linear. The
      two intersect, beside the doubled line, in a curve of degree two, which meets the line in these places.
    All of them are roots of quadratics with integers. A turn at which nothing changes does no harm. */
+#include "base/limits.h"
 #include "ray/around_cells.h"
 #include "ray/scratch.h"
-
-#include <math.h>
 
 /* Beyond so many surfaces the cells next to a point are given up as well (QN_CELLS_WORK). */
 enum { MOST_SURFACES = 160 };
@@ -29,7 +28,7 @@ typedef struct finder {
   qn_ctx *ctx;
   sheet *sheets;
   size_t count, curved;
-  qn_turn *turns;
+  qn_event *turns;
   size_t turn_count, turn_room;
 } finder;
 
@@ -54,7 +53,7 @@ static void add_turns(finder *f, const sheet *of, qn_xint a, qn_xint b, qn_xint 
   for (int i = 0; i < roots && f->turn_count < f->turn_room; i++) {
     qn_bound at = qn_bound_from_root(f->s, (qn_root){quad, i});
     at.half = of->half;
-    f->turns[f->turn_count++] = (qn_turn){at, of->leaf};
+    f->turns[f->turn_count++] = (qn_event){.at = at, .leaf = of->leaf};
   }
 }
 
@@ -178,7 +177,7 @@ static void make_germs(finder *f) {
   }
 }
 
-int qn_find_turns(qn_scratch *s, qn_turn **out, size_t *count) {
+int qn_find_turns(qn_scratch *s, qn_event **out, size_t *count) {
   finder f = {.s = s, .ctx = &s->ctx};
   *out = NULL;
   *count = 0;
@@ -195,6 +194,7 @@ int qn_find_turns(qn_scratch *s, qn_turn **out, size_t *count) {
     return 0;
   }
   make_germs(&f);
+  (void)qn_scratch_spend(s, f.count * f.curved, QN_EFFORT_CELL * QN_WORK_DEFINITE);
   for (size_t i = 0; i < f.count && !s->ctx.failed; i++) {
     if (!f.sheets[i].germ.plane) {
       apex(&f, &f.sheets[i]);
@@ -205,15 +205,14 @@ int qn_find_turns(qn_scratch *s, qn_turn **out, size_t *count) {
       }
     }
   }
-  for (size_t i = 1; i < f.turn_count; i++) {
-    qn_turn t = f.turns[i];
-    size_t j = i;
-    for (; j > 0 && qn_bound_cmp(s, &t.at, &f.turns[j - 1].at) < 0; j--) {
-      f.turns[j] = f.turns[j - 1];
+  qn_order_places(s, f.turns, f.turn_count);
+  size_t kept = 0;
+  for (size_t i = 0; i < f.turn_count; i++) {
+    if (kept == 0 || qn_bound_cmp(s, &f.turns[kept - 1].at, &f.turns[i].at) != 0) {
+      f.turns[kept++] = f.turns[i];
     }
-    f.turns[j] = t;
   }
   *out = f.turns;
-  *count = f.turn_count;
+  *count = kept;
   return 1;
 }

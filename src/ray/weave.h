@@ -36,6 +36,9 @@ void qn_scratch_free(qn_scratch *scratch);
 qn_counts *qn_scratch_counts(qn_scratch *scratch);
 qn_ctx *qn_scratch_ctx(qn_scratch *scratch); /* cleared at the start of each question */
 qn_eval *qn_scratch_eval(qn_scratch *scratch); /* at rest (every leaf outside) between questions */
+/* Spends effort of the question on count things (base/limits.h); 0 when that is too much, and the question has failed. Long numbers are not
+   counted: a text that spells them is as long. */
+int qn_scratch_spend(qn_scratch *scratch, size_t count, unsigned each);
 /* Starts a question: clears the context. Lines and numbers of earlier questions are gone. */
 void qn_scratch_begin(qn_scratch *scratch);
 

@@ -97,11 +97,12 @@ TIMED_VOID(exact, qn_root_above, (qn_ctx *ctx, qn_root x, qn_int *num, qn_int *d
 TIMED(exact, int, qn_surface_sign_at, (qn_ctx *ctx, const qn_exact_surface *surface, const qn_point *point), (ctx, surface, point))
 TIMED(exact, quoin_status, qn_around,
       (const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count, const uint32_t *near_halves,
-       size_t near_count, quoin_side *out),
-      (scene, scratch, point, leaves, leaf_count, near_halves, near_count, out))
-TIMED(exact, int, qn_cells_list, (qn_ctx *ctx, size_t n, qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user), (ctx, n, germs, emit, user))
-TIMED(exact, int, qn_cells_fan, (qn_ctx *ctx, size_t n, const qn_germ *germs, int (*emit)(void *user, const int8_t *signs), void *user),
-      (ctx, n, germs, emit, user))
+       size_t near_count, int how, quoin_side *out),
+      (scene, scratch, point, leaves, leaf_count, near_halves, near_count, how, out))
+TIMED(exact, int, qn_cells_list, (qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user),
+      (ctx, n, germs, on_line, emit, user))
+TIMED(exact, int, qn_cells_fan,
+      (qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user), (ctx, n, germs, on_line, emit, user))
 
 TIMED(woven, quoin_status, qn_weave, (const quoin_scene *scene, qn_scratch *scratch, qn_line *line, const qn_range *range, unsigned want, qn_woven *out),
       (scene, scratch, line, range, want, out))

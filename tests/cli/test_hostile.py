@@ -1,5 +1,6 @@
 """Hostile files: each gets an answer or a clear error in seconds, within the memory that --max-memory allows, and nothing is left half written."""
 import os
+import random
 import resource
 import subprocess
 import time
@@ -8,6 +9,7 @@ from quoin import Case, PROGRAM, main
 
 DEEP = 100000
 SANITIZED = bool(os.environ.get("QUOIN_SANITIZED"))
+MANY = 2000 if SANITIZED else 20000
 SECONDS = 2.0 * (10 if SANITIZED else 3)  # 2 s on an idle machine; of processor time, which a busy one stretches
 
 
@@ -77,6 +79,85 @@ class Hostile(Case):
         boxes = "".join(f"translate([{2 * i}, 0, 0]) cube(1);" for i in range(4000))
         self.ask("multmatrix([[1, 0.1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1]]) " * 2000 + "{" + boxes + "}", [0])
         self.ask("union() { sphere(1);" * 8000 + "}" * 8000, [0], options=("--max-memory", "1G", "--threads", "1", "--near", "1"))
+
+    # --- rays and points in many surfaces
+
+    def ask_ray(self, text, codes, *numbers, options=("--boundary", "--contacts")):
+        if SANITIZED and codes == [3]:
+            return []  # the effort is spent as slowly as the program runs
+        rays = self.folder / "rays"
+        rays.write_text(" ".join(map(str, numbers)) + "\n")
+        said, _ = self.ask(text, codes, command="ray" if len(numbers) == 6 else "query",
+                           options=("--max-memory", "1G", "--threads", "1", "-i", str(rays), *(options if len(numbers) == 6 else ("--names",))))
+        if codes == [0]:
+            return (self.folder / "out").read_text().split()
+        self.assertIn("a limit was met", said)
+        return []
+
+    def test_contacts_at_many_places(self):
+        n = MANY
+        touching = "".join(f"translate([{3 * i},1,0]) sphere(1);" for i in range(n))
+        out = self.ask_ray(touching, [0], 0, 0, 0, 1, 0, 0, options=("--contacts",))
+        self.assertEqual(out, ["0", "contacts", str(n), *(str(3 * i) for i in range(n))])
+        random.Random(1).shuffle(order := list(range(n)))
+        irrational = "".join(f"translate([{3 * i},{3 * i},sqrt(2)]) sphere(sqrt(2));" for i in order)
+        self.assertEqual(self.ask_ray(irrational, [0], 0, 0, 0, 1, 1, 0, options=("--contacts",)), out)
+        holes = "difference() { union() {" + touching + "}" + "".join(f"translate([{3 * i},0,0]) sphere(1/2);" for i in range(0, n, 2)) + "}"
+        out = self.ask_ray(holes, [0], 0, 0, 0, 1, 0, 0, options=("--contacts",))
+        self.assertEqual(out, ["0", "contacts", str(n // 2), *(str(3 * i) for i in range(1, n, 2))])
+
+    def test_contacts_of_many_at_one_place(self):
+        nested = "".join(f"translate([0,{i + 1},0]) sphere({i + 1});" for i in range(MANY))
+        self.assertEqual(self.ask_ray(nested, [0], 0, 0, 0, 1, 0, 0, options=("--contacts",)), ["0", "contacts", "1", "0"])
+
+    def test_contacts_in_many_faces(self):
+        n = MANY
+        boxes = "".join(f"translate([0,-1,{-i - 1}]) cube([{6 * n},1,{2 * i + 2}]);" for i in range(n // 2))
+        spheres = "".join(f"translate([{3 * i},1,0]) sphere(1);" for i in range(n // 2))
+        self.ask_ray("intersection() { union() {" + boxes + "} union() {" + spheres + "} }", [3], 0, 0, 0, 1, 0, 0)
+
+    def test_rays_along_faces(self):
+        n = MANY
+        row = "".join(f"translate([{2 * i},0,0]) cube(1);" for i in range(n))
+        self.assertEqual(self.ask_ray(row, [0], 0, 0, 0, 1, 0, 0)[:3], ["0", "boundary", str(n)])
+        outlines = "".join(f"translate([{i},0,{-i - 1}]) cube([{2 * n - 2 * i},1,{2 * i + 2}]);" for i in range(n))
+        self.assertEqual(self.ask_ray(outlines, [0], 0, 0, 0, 1, 0, 0), ["0", "boundary", "1", "0", str(2 * n), "contacts", "0"])
+
+    def slices(self, n, step):
+        return "".join(f"translate([{step * i},0,0]) multmatrix([[1,0,0,0],[0,{n},{i},0],[0,{-i},{n},0]]) cube(1);" for i in range(n))
+
+    def test_rays_along_many_planes(self):
+        self.assertEqual(self.ask_ray(self.slices(3000, 0), [0], 0, 0, 0, 1, 0, 0), ["0", "boundary", "1", "0", "1", "contacts", "0"])
+        self.assertEqual(self.ask_ray(self.slices(3000, 2), [0], 0, 0, 0, 1, 0, 0)[:3], ["0", "boundary", "3000"])
+        self.ask_ray(self.slices(20000, 2), [3], 0, 0, 0, 1, 0, 0)
+
+    def turned(self, n, what):
+        """n solids about the z axis, each with a tangent plane of its own there."""
+        return "".join(f"multmatrix([[{n},{-i},0,0],[{i},{n},0,0],[0,0,1,0]]) {what.format(i)};" for i in range(n))
+
+    def test_rays_along_generators(self):
+        cylinder = "translate([1,0,0]) cylinder(r=1,h=1)"
+        self.assertEqual(self.ask_ray(self.turned(1000, cylinder), [0], 0, 0, 0, 0, 0, 1), ["0", "boundary", "1", "0", "1", "contacts", "0"])
+        block = "translate([-5,-5,-5]) cube(20);"
+        self.assertEqual(self.ask_ray(block + self.turned(1000, cylinder), [0], 0, 0, 0, 0, 0, 1), ["1", "-5", "15", "boundary", "0", "contacts", "0"])
+        tangent = "".join(f"translate([{i + 1},0,0]) cylinder(r={i + 1},h=1);" for i in range(1000))
+        self.assertEqual(self.ask_ray(tangent, [0], 0, 0, 0, 0, 0, 1), ["0", "boundary", "1", "0", "1", "contacts", "0"])
+        self.ask_ray(block + self.turned(8000, "translate([1,0,{0}/7]) cylinder(r=1,h=24000)"), [3], 0, 0, 0, 0, 0, 1)
+
+    def test_rays_along_saddles(self):
+        def saddles(n):
+            return "intersection() { cube(9); union() {" + "".join(f"quadric([0,0,0,0,1,{i + 1},{-(i * i % 7 + 1)},{i % 5 + 1},0,0]);" for i in range(n)) + "} }"
+        self.assertEqual(self.ask_ray(saddles(40), [0], 0, 0, 0, 0, 0, 1)[:2], ["0", "boundary"])
+        self.ask_ray(saddles(150), [3], 0, 0, 0, 0, 0, 1)
+
+    def test_points_on_many_surfaces(self):
+        n = MANY // 2
+        for text in ("".join(f"translate([0,0,{i + 1}]) sphere({i + 1});" for i in range(n)),
+                     "".join(f"halfspace(n=[{i},{i * i + 1},{i * i % 7 + 1}],d=0);" for i in range(n)),
+                     "".join(f"translate([0,0,-1]) cone(h=1,r={i + 1});" for i in range(n)),
+                     self.turned(n, "translate([0,0,-1]) cone(h=1,r=1)"), self.slices(n, 0)):
+            out = self.ask_ray(text, [0], 0, 0, 0)
+            self.assertEqual((out[0], len(out)), ("boundary", n + 1))
 
     # --- polyhedra
 
