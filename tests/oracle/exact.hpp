@@ -1,5 +1,7 @@
 // Rational vectors, affine maps and quadrics: the oracle's own textbook forms, sharing nothing with the library.
 #pragma once
+#include "random.hpp"
+
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
 
@@ -168,19 +170,5 @@ inline std::string decimal(const Q &q) {
 }
 inline std::string text(const V &v) { return "[" + decimal(v[0]) + "," + decimal(v[1]) + "," + decimal(v[2]) + "]"; }
 
-// A small generator of its own, the same everywhere: splitmix64.
-struct Random {
-  uint64_t x;
-  explicit Random(uint64_t seed) : x(seed) {}
-  uint64_t next() {
-    uint64_t z = (x += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-  int below(int n) { return (int)(next() % (uint64_t)n); }
-  int range(int lo, int hi) { return lo + below(hi - lo + 1); }
-  bool chance(int percent) { return below(100) < percent; }
-  Q tenth(int lo, int hi) { return Q(range(lo, hi)) / Q(10); }
-};
+inline Q tenth(Random &r, int lo, int hi) { return Q(r.range(lo, hi)) / Q(10); }
 } // namespace oracle

@@ -13,7 +13,7 @@ static K::FT ft(const Q &q) {
   return K::FT(K::FT::ET(os.str()));
 }
 static K::Point_3 point(const V &v) { return {ft(v[0]), ft(v[1]), ft(v[2])}; }
-static V lattice(Random &r) { return {r.tenth(-50, 50), r.tenth(-50, 50), r.tenth(-50, 50)}; }
+static V lattice(Random &r) { return {tenth(r, -50, 50), tenth(r, -50, 50), tenth(r, -50, 50)}; }
 
 static quoin_side side_of(const Model &m, const V &p) {
   std::string s[3];
@@ -35,7 +35,7 @@ int main(int argc, char **argv) {
     Model m(half);
     K::Plane_3 plane(point(a), point(b), point(c));
     for (int k = 0; k < 60; k++) {
-      Q u = r.tenth(-30, 30), v = r.tenth(-30, 30);
+      Q u = tenth(r, -30, 30), v = tenth(r, -30, 30);
       V p = a + u * (b - a) + v * (c - a);
       if (k % 3 == 1) p[r.below(3)] += (r.chance(50) ? Q(1) : Q(-1)) * pow2(-r.range(1, 120));
       if (k % 3 == 2) p = lattice(r);
@@ -50,7 +50,7 @@ int main(int argc, char **argv) {
     }
     // The same plane through three other points of it, and perhaps one of them moved a little off it.
     V p[3];
-    for (V &x : p) x = a + r.tenth(-30, 30) * (b - a) + r.tenth(-30, 30) * (c - a);
+    for (V &x : p) x = a + tenth(r, -30, 30) * (b - a) + tenth(r, -30, 30) * (c - a);
     bool moved = r.chance(50);
     if (moved) p[0] = p[0] + pow2(-r.range(1, 80)) * V{Q(r.range(0, 1)), Q(r.range(0, 1)), Q(1)};
     V n2 = cross(p[1] - p[0], p[2] - p[0]);

@@ -58,14 +58,14 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
   };
   switch (kind) {
   case 0: { // sphere
-    Q rad = r.tenth(1, 50);
+    Q rad = tenth(r, 1, 50);
     w << "sphere(r=" << D(rad) << ")";
     l.halves = {diagonal(1, 1, 1, -rad * rad)};
     for (int i = 0; i < 4; i++) smooth(rad * on_sphere(r), l.halves[0]);
     break;
   }
   case 1: { // cube
-    V s{r.tenth(1, 40), r.tenth(1, 40), r.tenth(1, 40)};
+    V s{tenth(r, 1, 40), tenth(r, 1, 40), tenth(r, 1, 40)};
     bool c = r.chance(40);
     w << "cube(" << text(s) << ",center=" << (c ? "true" : "false") << ")";
     V lo = c ? Q(-1) / Q(2) * s : V{0, 0, 0}, hi = lo + s;
@@ -93,7 +93,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
     break;
   }
   case 2: { // cylinder
-    Q h = r.tenth(1, 40), rad = r.tenth(1, 30);
+    Q h = tenth(r, 1, 40), rad = tenth(r, 1, 30);
     w << "cylinder(h=" << D(h) << ",r=" << D(rad) << ")";
     Quadric b = diagonal(1, 1, 0, -rad * rad);
     l.halves = {b, plane({0, 0, -1}, 0), plane({0, 0, 1}, h)};
@@ -106,7 +106,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
     break;
   }
   case 3: { // cone and frustum
-    Q h = r.tenth(1, 40), r1 = r.tenth(0, 30), r2 = r.tenth(0, 30);
+    Q h = tenth(r, 1, 40), r1 = tenth(r, 0, 30), r2 = tenth(r, 0, 30);
     if (r1 == r2) r2 = r1 + 1;
     if (r.chance(40)) (r.chance(50) ? r1 : r2) = 0;
     w << "cylinder(h=" << D(h) << ",r1=" << D(r1) << ",r2=" << D(r2) << ")";
@@ -127,7 +127,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
     break;
   }
   case 4: { // ellipsoid
-    V s{r.tenth(1, 30), r.tenth(1, 30), r.tenth(1, 30)};
+    V s{tenth(r, 1, 30), tenth(r, 1, 30), tenth(r, 1, 30)};
     if (r.chance(25)) s[2] = pow10(-r.range(3, 6));
     w << "ellipsoid(r=" << text(s) << ")";
     l.halves = {diagonal(1 / (s[0] * s[0]), 1 / (s[1] * s[1]), 1 / (s[2] * s[2]), -1)};
@@ -138,7 +138,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
     break;
   }
   case 5: { // paraboloid
-    Q h = r.tenth(1, 40), rad = r.tenth(1, 30);
+    Q h = tenth(r, 1, 40), rad = tenth(r, 1, 30);
     w << "paraboloid(h=" << D(h) << ",r=" << D(rad) << ")";
     Quadric b = diagonal(1, 1, 0, 0);
     b.a[2][3] = b.a[3][2] = -rad * rad / h / 2;
@@ -153,7 +153,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
   case 6: { // hyperboloid of one sheet; r^2 - rc^2 a square so that rulings and asymptotes are decimal
     static const int t[][3] = {{5, 3, 4}, {5, 4, 3}, {13, 5, 12}, {25, 7, 24}, {10, 6, 8}};
     auto &p = t[r.below(5)];
-    Q rad = Q(p[0]) / 5, rc = Q(p[1]) / 5, s = Q(p[2]) / 5, h = r.tenth(1, 30);
+    Q rad = Q(p[0]) / 5, rc = Q(p[1]) / 5, s = Q(p[2]) / 5, h = tenth(r, 1, 30);
     w << "hyperboloid(h=" << D(h) << ",r=" << D(rad) << ",rc=" << D(rc) << ")";
     Q k = s * s / (h * h);
     Quadric b = diagonal(1, 1, -k, -rc * rc);
@@ -166,7 +166,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
     break;
   }
   case 7: { // two sheets: x^2+y^2 = r^2 (z^2-g^2)/(h^2-g^2)
-    Q g = r.tenth(1, 20), h = g + r.tenth(1, 30), rad = r.tenth(1, 30);
+    Q g = tenth(r, 1, 20), h = g + tenth(r, 1, 30), rad = tenth(r, 1, 30);
     w << "hyperboloid(h=" << D(h) << ",r=" << D(rad) << ",gap=" << D(g) << ")";
     Q k = rad * rad / (h * h - g * g);
     Quadric b = diagonal(1, 1, -k, k * g * g);
@@ -191,7 +191,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
   case 9: { // half-space
     V n{Q(r.range(-3, 3)), Q(r.range(-3, 3)), Q(r.range(-3, 3))};
     if (zero(n)) n[2] = 1;
-    Q d = r.tenth(-30, 30);
+    Q d = tenth(r, -30, 30);
     w << "halfspace(n=" << text(n) << ",d=" << D(d) << ")";
     l.halves = {plane(n, d)};
     V p{0, 0, 0};
@@ -204,7 +204,7 @@ inline Leaf make_leaf(Random &r, int kind = -1) {
     break;
   }
   case 10: { // wedge: the cube's half with x/sx + z/sz <= 1
-    V s{r.tenth(1, 40), r.tenth(1, 40), r.tenth(1, 40)};
+    V s{tenth(r, 1, 40), tenth(r, 1, 40), tenth(r, 1, 40)};
     w << "wedge(size=" << text(s) << ")";
     l.halves = {plane({-1, 0, 0}, 0), plane({0, -1, 0}, 0), plane({0, 0, -1}, 0), plane({0, 1, 0}, s[1]), plane({s[2], 0, s[0]}, s[0] * s[2])};
     l.spots.push_back({Spot::Edge, V{s[0], s[1] / 2, 0}, V{0, 0, 1}, V{0, 1, 0}});
@@ -241,7 +241,7 @@ inline Map make_map(Random &r, std::string &out) {
   auto by = [&](const Map &n) { m = compose(m, n); };
   if (r.chance(80)) {
     Map n;
-    n.t = r.chance(15) ? V{pow10(r.range(2, 6)), 0, r.tenth(-9, 9)} : V{r.tenth(-40, 40), r.tenth(-40, 40), r.tenth(-40, 40)};
+    n.t = r.chance(15) ? V{pow10(r.range(2, 6)), 0, tenth(r, -9, 9)} : V{tenth(r, -40, 40), tenth(r, -40, 40), tenth(r, -40, 40)};
     if (r.chance(40))
       for (auto &c : n.t) c = Q(r.range(-3, 3));
     w << "translate(" << text(n.t) << ") ";
@@ -270,7 +270,7 @@ inline Map make_map(Random &r, std::string &out) {
     break;
   }
   case 2: { // scale, perhaps thin, perhaps mirrored
-    V s{r.tenth(1, 30), r.tenth(1, 30), r.tenth(1, 30)};
+    V s{tenth(r, 1, 30), tenth(r, 1, 30), tenth(r, 1, 30)};
     if (r.chance(20)) s[r.below(3)] = pow10(-r.range(2, 6));
     if (r.chance(20)) s[r.below(3)] *= -1;
     Map n;
@@ -282,7 +282,7 @@ inline Map make_map(Random &r, std::string &out) {
   case 3: { // shear
     Map n;
     int i = r.below(3), j = (i + 1 + r.below(2)) % 3;
-    n.m[i][j] = r.tenth(-20, 20);
+    n.m[i][j] = tenth(r, -20, 20);
     w << "multmatrix([";
     for (int k = 0; k < 3; k++) w << "[" << decimal(n.m[k][0]) << "," << decimal(n.m[k][1]) << "," << decimal(n.m[k][2]) << ",0],";
     w << "[0,0,0,1]]) ";

@@ -25,6 +25,15 @@ static void find_isas(void) {
   unsetenv("QUOIN_ISA");
 }
 
+/* A work that takes the k-th of them. */
+static quoin_work *work_on(size_t k, const quoin_scene *scene) {
+  quoin_work *work;
+  setenv("QUOIN_ISA", isas[k], 1);
+  assert_int_equal(quoin_work_new(scene, &work), QUOIN_OK);
+  unsetenv("QUOIN_ISA");
+  return work;
+}
+
 /* A ray's answer by the woven path alone. */
 typedef struct truth {
   quoin_status status;
@@ -120,10 +129,7 @@ static void one_bundle(dice *d, const ask *a, const char *text, int model, int b
     }
   }
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a->scene);
     asked q = {text, isas[k], model, bundle, rays, want, 0};
     size_t n = roll(d, 2) ? QN_LANES : 1 + (size_t)roll(d, QN_LANES);
     assert_int_equal(quoin_ray_intervals_many(a->scene, work, n, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
@@ -186,10 +192,7 @@ static void some_decimals(dice *d, const ask *a, const char *text, int model, in
     copy(v.boundary_count, v.boundary, want[i].boundary);
   }
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a->scene);
     asked q = {text, isas[k], model, bundle, doubles, want, 0};
     assert_int_equal(quoin_ray_intervals_many_text(a->scene, work, n, rays, begin, end, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     assert_int_equal(q.answers, n);
@@ -215,10 +218,7 @@ static void one_grid(dice *d, const ask *a, const char *text, int model, int bun
   const size_t x0 = (size_t)roll(d, (int)grid.width), y0 = (size_t)roll(d, (int)grid.height), x1 = x0 + 1 + (size_t)roll(d, (int)(grid.width - x0)),
                y1 = y0 + 1 + (size_t)roll(d, (int)(grid.height - y0));
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a->scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a->scene);
     const unsigned boundary = roll(d, 2) ? QUOIN_WANT_BOUNDARY : 0;
     quoin_grid_answer all;
     int is_grid = 1;
@@ -319,10 +319,7 @@ static void long_rays(void **state) {
     assert_true(want[i].status == QUOIN_OK && want[i].count > 30);
   }
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a.scene);
     asked q = {"a fence\n", isas[k], 0, 0, rays, want, 0};
     assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     uint64_t sure;
@@ -351,10 +348,7 @@ static void flush_names(void **state) {
   }
   assert_int_equal(stretches, QN_LANES);
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a.scene);
     asked q = {text, isas[k], 0, 0, rays, want, 0};
     assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     assert_true(__builtin_popcountll(work->sheaf->spans.merged) >= (int)(work->sheaf->packet.few ? 8 : 60));
@@ -385,10 +379,7 @@ static void plans(void **state) {
     }
     assert_true(stretches >= QN_LANES);
     for (size_t k = 0; k < isa_count; k++) {
-      quoin_work *work;
-      setenv("QUOIN_ISA", isas[k], 1);
-      assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
-      unsetenv("QUOIN_ISA");
+      quoin_work *work = work_on(k, a.scene);
       for (int again = 0; again < 2; again++) { /* with the plans of the first time */
         asked q = {text, isas[k], way, again, rays, want, 0};
         assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
@@ -433,10 +424,7 @@ static void barely_longer(void **state) {
     assert_int_equal(want[i].count, 1);
   }
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a.scene);
     asked q = {text, isas[k], 0, 0, rays, want, 0};
     assert_int_equal(quoin_ray_intervals_many(a.scene, work, 3, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);
     quoin_work_free(work);
@@ -477,10 +465,7 @@ static void deep_program(void **state) {
   }
   assert_true(stretches > 200);
   for (size_t k = 0; k < isa_count; k++) {
-    quoin_work *work;
-    setenv("QUOIN_ISA", isas[k], 1);
-    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
-    unsetenv("QUOIN_ISA");
+    quoin_work *work = work_on(k, a.scene);
     for (int pass = 0; pass < 2; pass++) { /* the second begins where the first left the program */
       asked q = {"deep\n", isas[k], 0, 0, rays, want, 0};
       assert_int_equal(quoin_ray_intervals_many(a.scene, work, QN_LANES, rays, QUOIN_WANT_BOUNDARY, each, &q), QUOIN_OK);

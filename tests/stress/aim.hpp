@@ -70,8 +70,8 @@ inline bool aim(Random &r, const std::vector<const Spot *> &spots, const std::ve
   case TwoSpots: d = spots[(size_t)r.below((int)spots.size())]->point - p; break;
   case Axis: d = along_axis(r.below(3), r.chance(50) ? 1 : -1); break;
   case Random_:
-    p = p + V{r.tenth(-50, 50), r.tenth(-50, 50), r.tenth(-50, 50)};
-    d = V{r.tenth(-50, 50), r.tenth(-50, 50), r.tenth(-50, 50)};
+    p = p + V{tenth(r, -50, 50), tenth(r, -50, 50), tenth(r, -50, 50)};
+    d = V{tenth(r, -50, 50), tenth(r, -50, 50), tenth(r, -50, 50)};
     break;
   default: d = small_vector(r);
   }

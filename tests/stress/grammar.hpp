@@ -42,9 +42,9 @@ inline V along_axis(int i, const Q &q) {
 }
 inline Q a_size(Random &r, const Style &s) {
   static const int round[] = {1, 2, 2, 3, 4, 5, 5, 5, 10, 15, 25, 50};
-  return s.dyadic ? Q(round[r.below(12)]) : r.tenth(1, 50);
+  return s.dyadic ? Q(round[r.below(12)]) : tenth(r, 1, 50);
 }
-inline Q a_place(Random &r, const Style &s) { return s.dyadic ? Q(r.range(-6, 6)) : r.chance(60) ? Q(r.range(-3, 3)) : r.tenth(-60, 60); }
+inline Q a_place(Random &r, const Style &s) { return s.dyadic ? Q(r.range(-6, 6)) : r.chance(60) ? Q(r.range(-3, 3)) : tenth(r, -60, 60); }
 // What is between two faces that nearly meet; mostly nothing. Gaps near the spacing of doubles are where filters are tried, and where
 // parameters lie in the middle between two doubles.
 inline Q a_gap(Random &r, const Style &st) {
@@ -134,14 +134,14 @@ inline Step a_step(Random &r, const Style &st) {
   case 4:
     s.kind = Step::Scale;
     s.v = {Q(1), Q(1), Q(1)};
-    for (auto &e : s.v) e = st.dyadic ? pow2(r.range(-2, 2)) : r.tenth(1, 30);
+    for (auto &e : s.v) e = st.dyadic ? pow2(r.range(-2, 2)) : tenth(r, 1, 30);
     if (r.chance(30)) s.v = {s.v[0], s.v[0], s.v[0]};
     if (r.chance(20)) s.v[r.below(3)] *= -1;
     break;
   default: {
     s.kind = Step::Matrix;
     int i = r.below(3), j = (i + 1 + r.below(2)) % 3;
-    s.map.m[i][j] = st.dyadic ? Q(r.range(-4, 4)) / 2 : r.tenth(-20, 20);
+    s.map.m[i][j] = st.dyadic ? Q(r.range(-4, 4)) / 2 : tenth(r, -20, 20);
   }
   }
   return s;

@@ -55,31 +55,8 @@ struct Faces { // of one tetrahedron, asked for the surfaces through its middle
   }
   // The stretches of from + t step, t in (0, 1).
   void look(const V &from, const V &step) {
-    const Line4 line = whole(from, step);
-    const Root zero(Q(0)), one(Q(1));
-    std::vector<std::pair<Root, size_t>> marks;
     lines++;
-    for (size_t s : through) {
-      Line1 l = solve(along(surfaces.forms[s], line));
-      if (l.zero) {
-        failed = true;
-        return;
-      }
-      signs[s] = l.first;
-      for (auto &r : l.roots) {
-        if (r <= zero) signs[s] = -signs[s];
-        else if (r < one) marks.emplace_back(r, s);
-      }
-    }
-    std::sort(marks.begin(), marks.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-    for (size_t at = 0; !(in && out);) {
-      for (size_t h = 0; h < cursors.size(); h++) cursors[h].sign = signs[surfaces.of[h]] * surfaces.side[h];
-      size_t half = 0;
-      (evaluate(solid, cursors, half, 0) ? in : out) = true;
-      if (at == marks.size()) break;
-      const Root here = marks[at].first;
-      for (; at < marks.size() && marks[at].first == here; at++) signs[marks[at].second] *= -1;
-    }
+    failed |= !values_along(solid, surfaces, through, signs, cursors, from, step, in, out);
   }
   // All cells of the face with corners o, o + u, o + w.
   void face(const Kernel &kernel, const V &o, const V &u, const V &w) {

@@ -15,38 +15,45 @@
 namespace stress {
 using namespace oracle;
 
+// What the solid is along from + t step, t in (0, 1), is added to in and out until both are seen. signs: by surface, of those not among `cut`; these are set here. false: one
+// of these holds the line.
+inline bool values_along(const Node &solid, const Surfaces &surfaces, const std::vector<size_t> &cut, std::vector<int> &signs, std::vector<Cursor> &cursors, const V &from, const V &step,
+                         bool &in, bool &out) {
+  const Line4 line = whole(from, step);
+  const Root zero(Q(0)), one(Q(1));
+  std::vector<std::pair<Root, size_t>> marks;
+  for (size_t s : cut) {
+    Line1 l = solve(along(surfaces.forms[s], line));
+    if (l.zero) return false;
+    signs[s] = l.first;
+    for (auto &r : l.roots) {
+      if (r <= zero) signs[s] = -signs[s];
+      else if (r < one) marks.emplace_back(r, s);
+    }
+  }
+  std::sort(marks.begin(), marks.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  for (size_t at = 0; !(in && out);) {
+    for (size_t h = 0; h < cursors.size(); h++) cursors[h].sign = signs[surfaces.of[h]] * surfaces.side[h];
+    size_t half = 0;
+    (evaluate(solid, cursors, half, 0) ? in : out) = true;
+    if (at == marks.size()) break;
+    const Root here = marks[at].first;
+    for (; at < marks.size() && marks[at].first == here; at++) signs[marks[at].second] *= -1;
+  }
+  return true;
+}
+
 // The surfaces that hold the line; signs: of the others at p (by surface; those that hold the line are set here).
 inline Answer::What ring(const Node &solid, const Surfaces &surfaces, const std::vector<size_t> &held, std::vector<int> signs, const V &p, const V &d, const Q &size, bool &failed) {
   V e{Q(3) / 7, Q(-2) / 5, Q(5) / 11}, f{Q(-4) / 9, Q(6) / 13, Q(1) / 3};
   if (oracle::dot(d, cross(e, f)) == 0) e = V{Q(1), Q(2) / 7, Q(-3) / 5};
   if (oracle::dot(d, cross(e, f)) == 0) f = V{Q(5) / 9, Q(-1), Q(2) / 3};
   const Q small = size * pow2(-1000);
-  const Root zero(Q(0)), one(Q(1));
   V corner[4] = {p + small * (e + f), p + small * (f - e), p - small * (e + f), p + small * (e - f)};
   bool in = false, out = false;
   std::vector<Cursor> cursors(surfaces.of.size());
-  for (size_t h = 0; h < cursors.size(); h++) cursors[h].sign = signs[surfaces.of[h]] * surfaces.side[h];
   for (int k = 0; k < 4 && !(in && out); k++) {
-    const Line4 side = whole(corner[k], corner[(k + 1) % 4] - corner[k]);
-    std::vector<std::pair<Root, size_t>> marks;
-    for (size_t s : held) {
-      Line1 l = solve(along(surfaces.forms[s], side));
-      if (l.zero) return failed = true, Answer::On;
-      signs[s] = l.first;
-      for (auto &r : l.roots) {
-        if (r <= zero) signs[s] = -signs[s];
-        else if (r < one) marks.emplace_back(r, s);
-      }
-    }
-    std::sort(marks.begin(), marks.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-    for (size_t at = 0; !(in && out);) {
-      for (size_t h = 0; h < cursors.size(); h++) cursors[h].sign = signs[surfaces.of[h]] * surfaces.side[h];
-      size_t half = 0;
-      (evaluate(solid, cursors, half, 0) ? in : out) = true;
-      if (at == marks.size()) break;
-      const Root here = marks[at].first;
-      for (; at < marks.size() && marks[at].first == here; at++) signs[marks[at].second] *= -1;
-    }
+    if (!values_along(solid, surfaces, held, signs, cursors, corner[k], corner[(k + 1) % 4] - corner[k], in, out)) return failed = true, Answer::On;
   }
   return in ? out ? Answer::On : Answer::Inside : Answer::Outside;
 }

@@ -161,7 +161,7 @@ inline Spec otherwise(Random &r, Spec s) {
     return s;
   }
   Step there, back; // to and fro
-  there.v = V{r.tenth(-30, 30), r.tenth(-30, 30), r.tenth(-30, 30)}, back.v = Q(-1) * there.v;
+  there.v = V{tenth(r, -30, 30), tenth(r, -30, 30), tenth(r, -30, 30)}, back.v = Q(-1) * there.v;
   s.steps.push_back(there), s.steps.push_back(back);
   if (r.chance(50)) {
     Step big, small;
