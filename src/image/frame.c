@@ -92,8 +92,8 @@ static int vertex_disc(const qn_quadric_shadow *q, const double pivot[3], const 
 }
 
 static int ovals_of(const quoin_scene *scene, const qn_leaf *leaf, qn_oval out[2]) {
-  const qn_half *half = scene->halves + leaf->half0;
-  if (leaf->halves == 0 || half[0].kind != QN_QUADRIC_BODY) {
+  const qn_half *half = leaf->halves ? scene->halves + leaf->half0 : NULL;
+  if (!half || half[0].kind != QN_QUADRIC_BODY) {
     return 0;
   }
   const qn_quadric_shadow *body = &scene->quadrics[half[0].shadow];

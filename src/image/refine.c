@@ -41,9 +41,9 @@ size_t qn_refine_mark(const qn_first_pass *pass, size_t x0, size_t y0, size_t x1
   }
   for (size_t y = y0 ? y0 : 1; y <= y1 && y < pass->height; y++) {
     const unsigned char *line = pass->pixels + y * pass->row_bytes, *above = line - pass->row_bytes;
-    const uint32_t *surfaces = pass->surfaces + y * width;
+    const uint32_t *surfaces = pass->surfaces + y * width, *over = surfaces - width;
     for (size_t x = x0; x < x1; x++) {
-      if (differ(surfaces[x - width], above + 4 * x, surfaces[x], line + 4 * x)) {
+      if (differ(over[x], above + 4 * x, surfaces[x], line + 4 * x)) {
         marks[(y > y0 ? y - 1 : y) * width + x] = QN_REFINE_WANTED;
         marks[(y < y1 ? y : y - 1) * width + x] = QN_REFINE_WANTED;
         pairs++;

@@ -55,8 +55,8 @@ QN_INLINE unsigned row_of_group(const struct quoin_scene *scene, const qn_packet
   if (differ) {
     const double *place[QN_W], *os[QN_W], *ds[QN_W], *is[QN_W];
     for (unsigned i = 0; i < QN_W; i++) {
-      const size_t from = of[i]->axis[0] * (size_t)QN_LANES + (size_t)at + i;
-      place[i] = of[i]->place, os[i] = packet->o[0] + from, ds[i] = packet->d[0] + from, is[i] = packet->inv[0] + from;
+      const int axis = of[i]->axis[0], from = at + (int)i;
+      place[i] = of[i]->place, os[i] = packet->o[axis] + from, ds[i] = packet->d[axis] + from, is[i] = packet->inv[axis] + from;
     }
     high = vcollect(place, 0), low = vcollect(place, 1), o = vcollect(os, 0), d = vcollect(ds, 0), inverse = vcollect(is, 0);
   } else {
