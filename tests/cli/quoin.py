@@ -22,7 +22,7 @@ class Result:
         return f"exit {self.code}\nstdout: {self.out[:2000]}\nstderr: {self.err[:2000]}"
 
 
-def run(*args, stdin=b"", cwd=None, stdout=subprocess.PIPE, timeout=120):
+def run(*args, stdin=b"", cwd=None, stdout=subprocess.PIPE, timeout=40 * float(os.environ.get("QUOIN_TEST_SLOWER", 3))):
     done = subprocess.run([PROGRAM, *map(str, args)], input=stdin.encode() if isinstance(stdin, str) else stdin, stdout=stdout,
                           stderr=subprocess.PIPE, cwd=cwd, timeout=timeout)
     done.stdout = done.stdout or b""

@@ -1,6 +1,7 @@
 /* Numbers as the commands print them against printf: the same bytes for doubles of every size and kind.
 
    Run with a number for more: cli_number [millions]. */
+#include "../share.h"
 #include "cli/number.h"
 
 #include <math.h>
@@ -64,7 +65,7 @@ static void ties(void **state) {
   (void)state;
   size_t halves = 0;
   for (int k = 1; k < 53; k++) {
-    for (int i = 0; i < 4000; i++) {
+    for (int i = 0; i < share_of(4000); i++) {
       double x = ldexp((double)(next() >> (11 + next() % 50) | 1), -k);
       char exact[1200];
       int length = snprintf(exact, sizeof exact, "%.1100g", x), digits = 0;
@@ -75,7 +76,7 @@ static void ties(void **state) {
       check(x), check(-x);
     }
   }
-  assert_true(halves > 1000);
+  assert_true(halves > share_min(1000));
 }
 
 static void random_numbers(void **state) {

@@ -1,5 +1,6 @@
 /* Large and deep models: a million leaves in bounded memory, with their time printed; 100,000 levels of nesting. */
 #include "model/tree.h"
+#include "share.h"
 
 #include <time.h>
 
@@ -30,7 +31,8 @@ static void meter_release(void *user, void *block, size_t size) {
 
 static void million(void **state) {
   (void)state;
-  enum { N = 1000000, LINE = 60 };
+  enum { LINE = 60 };
+  const int N = share_of(1000000);
   char *text = malloc((size_t)N * LINE);
   assert_non_null(text);
   size_t length = 0;
@@ -47,7 +49,7 @@ static void million(void **state) {
   double start = seconds();
   assert_int_equal(quoin_model_read_text(model, QUOIN_ROOT, "t", text, length, NULL), QUOIN_OK);
   double took = seconds() - start;
-  print_message("a million leaves, %zu bytes of text: %.2f s, peak %zu MB, kept %zu MB\n", length, took, m.peak >> 20, m.used >> 20);
+  print_message("%d leaves, %zu bytes of text: %.2f s, peak %zu MB, kept %zu MB\n", N, length, took, m.peak >> 20, m.used >> 20);
   assert_int_equal(model->leaf_count, N);
   assert_true(m.peak < (size_t)800 << 20);
   quoin_model_free(model);
@@ -85,7 +87,7 @@ static void depth(void **state) {
 /* Files that are large in one way must not cost more than linear time. */
 static void wide(void **state) {
   (void)state;
-  enum { N = 200000 };
+  const int N = share_of(200000);
   char *text = malloc((size_t)N * 40 + 100);
   assert_non_null(text);
   static const struct { const char *each, *end; int status; } kinds[] = {

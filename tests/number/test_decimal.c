@@ -1,5 +1,6 @@
 /* The quick reader of decimals against qn_num_read: the same bytes read, the nearest double, and exactness. */
 #include "number/num.h"
+#include "share.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -57,7 +58,7 @@ static void random_texts(void **unused) {
   qn_ctx ctx;
   qn_ctx_init(&ctx, &mem);
   census c = {0};
-  for (int i = 0; i < 400000; i++) {
+  for (int i = 0; i < share_of(400000); i++) {
     char text[100], part[60];
     static const char *const signs[] = {"", "", "", "-", "+"}, *const points[] = {"", ".", ".", "."};
     snprintf(text, sizeof text, "%s", signs[below(5)]);
@@ -84,7 +85,7 @@ static void random_texts(void **unused) {
     compare(&ctx, text, &c);
   }
   print_message("%zu read, %zu of them exact, %zu zero; %zu left; %zu no numbers\n", c.read, c.exact, c.zero, c.left, c.none);
-  assert_true(c.read > 500000 && c.exact > 40000 && c.read - c.exact > 200000 && c.left > 20000 && c.none > 2000 && c.zero > 500);
+  assert_true(c.read > share_min(500000) && c.exact > share_min(40000) && c.read - c.exact > share_min(200000) && c.left > share_min(20000) && c.none > share_min(2000) && c.zero > share_min(500));
   qn_ctx_free(&ctx);
   assert_int_equal(mem.used, 0);
 }
@@ -97,7 +98,7 @@ static void halves(void **unused) {
   qn_ctx ctx;
   qn_ctx_init(&ctx, &mem);
   census c = {0};
-  for (int i = 0; i < 100000; i++) {
+  for (int i = 0; i < share_of(100000); i++) {
     uint64_t m = (bits() >> 10 & 0x3fffffffffffff) | UINT64_C(0x20000000000001); /* 54 bits, odd: its double is a tie */
     char text[60];
     int64_t off = below(3) - 1;
@@ -108,7 +109,7 @@ static void halves(void **unused) {
     snprintf(text, sizeof text, "%llu5e-1", (unsigned long long)(m >> 1));
     compare(&ctx, text, &c);
   }
-  assert_int_equal(c.read, 300000);
+  assert_int_equal(c.read, (size_t)share_of(100000) * 3);
   qn_ctx_free(&ctx);
 }
 

@@ -1,6 +1,7 @@
 /* Irrational functions: exact values, correct rounding against MPFR's own functions in degrees (mpfr_sinu and its
    kin, another code path) where the argument is dyadic and against plain evaluation at 6000 bits where it is not. */
 #include "judge.h"
+#include "share.h"
 
 /* The relative distance of r from y, y at high precision: at most half a unit of 256 bits, so it is the nearest. */
 static int nearest_to(qn_num r, mpfr_t y) {
@@ -171,7 +172,7 @@ static void test_dyadic_degrees(void **unused) {
   mpfr_init2(x, 1200);
   mpfr_init2(z, 1200);
   mpfr_init2(y, QN_S2_PRECISION);
-  for (int round = 0; round < 3000; round++) {
+  for (int round = 0; round < share_of(3000); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     double v = ldexp((double)(int64_t)random_bits(&seed), (int)random_below(&seed, 120) - 110), w = ldexp((double)(int64_t)random_bits(&seed), -58);
     if (round % 4 == 0) { /* next to the exact places */
@@ -238,7 +239,7 @@ static void test_rational_arguments(void **unused) {
   mpq_inits(q, n, NULL);
   mpfr_const_pi(pi, MPFR_RNDN);
   mpfr_div_ui(pi, pi, 180, MPFR_RNDN);
-  for (int round = 0; round < 300; round++) {
+  for (int round = 0; round < share_of(300); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     qn_int num = random_int(c, &seed, 3), den = random_int(c, &seed, 3);
     if (!num.n || !den.n) {

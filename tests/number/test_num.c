@@ -1,6 +1,7 @@
 /* Numbers against GMP's rationals: values, canonical forms, roundings of design S2, text there and back. */
 #include "base/limits.h"
 #include "judge.h"
+#include "share.h"
 
 enum { ROUNDS = 20000 };
 
@@ -38,7 +39,7 @@ static void test_operations_agree_with_mpq(void **unused) {
   mpq_inits(x, y, z, l, NULL);
   mpz_init(t);
   size_t kinds[3] = {0}, results[3] = {0}, cancelled = 0, nothing = 0;
-  for (int round = 0; round < ROUNDS; round++) {
+  for (int round = 0; round < share_of(ROUNDS); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     qn_num a = random_num(c, &seed, 1), b = random_num(c, &seed, 1);
     if (round % 5 == 0) { /* neighbours: equal, or apart by about 2^-200 */
@@ -122,9 +123,9 @@ static void test_operations_agree_with_mpq(void **unused) {
     qn_arena_release(&c->arena, mark);
   }
   for (int k = 0; k < 3; k++) {
-    assert_true(kinds[k] > 500 && results[k] > 500);
+    assert_true(kinds[k] > share_min(500) && results[k] > share_min(500));
   }
-  assert_true(cancelled > 500 && nothing > 50);
+  assert_true(cancelled > share_min(500) && nothing > share_min(50));
   mpq_clears(x, y, z, l, NULL);
   mpz_clear(t);
   setup_free(&s);
@@ -139,7 +140,7 @@ static void test_rounding(void **unused) {
   uint64_t seed = 12;
   mpq_t q;
   mpq_init(q);
-  for (int round = 0; round < ROUNDS; round++) {
+  for (int round = 0; round < share_of(ROUNDS); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     qn_int n = random_int(c, &seed, 7), d = random_int(c, &seed, 7);
     if (round % 2) { /* 257 bits with a last one, and perhaps a little beside it */
@@ -167,7 +168,7 @@ static void test_dot(void **unused) {
   uint64_t seed = 13;
   mpq_t z, p, l, q;
   mpq_inits(z, p, l, q, NULL);
-  for (int round = 0; round < 4000; round++) {
+  for (int round = 0; round < share_of(4000); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     qn_num a[4], b[4];
     size_t n = random_below(&seed, 5);
@@ -213,7 +214,7 @@ static void test_doubles(void **unused) {
   mpq_t x, y, e;
   mpq_inits(x, y, e, NULL);
   size_t subnormal = 0, infinite = 0, with_low = 0;
-  for (int round = 0; round < ROUNDS; round++) {
+  for (int round = 0; round < share_from(1000, ROUNDS); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     qn_num a = random_num(c, &seed, 1);
     if (round % 3 == 1) { /* between two doubles, and a hair off it */
@@ -267,7 +268,7 @@ static void test_doubles(void **unused) {
     }
     qn_arena_release(&c->arena, mark);
   }
-  assert_true(subnormal > 100 && infinite > 100 && with_low > 1000);
+  assert_true(subnormal > share_min(100) && infinite > share_min(100) && with_low > share_min(1000));
   mpq_clears(x, y, e, NULL);
   setup_free(&s);
 }
@@ -342,7 +343,7 @@ static void test_reading(void **unused) {
   mpz_t p;
   mpq_init(q);
   mpz_init(p);
-  for (int round = 0; round < 3000; round++) {
+  for (int round = 0; round < share_of(3000); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     size_t digits = 1 + random_below(&seed, round % 10 ? 24 : 300), point = random_below(&seed, digits + 1);
     int e = (int)random_below(&seed, 100) - 50;
@@ -469,7 +470,7 @@ static void test_text(void **unused) {
   p = qn_num_neg(c, qn_num_div(c, p, qn_num_from_int(c, 70)));
   assert_true(qn_num_equal(read_back(c, qn_num_text(c, p)), p));
   uint64_t seed = 16;
-  for (int round = 0; round < 6000; round++) {
+  for (int round = 0; round < share_of(6000); round++) {
     qn_mark mark = qn_arena_mark(&c->arena);
     qn_num a = random_num(c, &seed, 1);
     text = qn_num_text(c, a);

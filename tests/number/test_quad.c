@@ -1,6 +1,7 @@
 /* Roots of quadratics: their order and the double nearest to each, against MPFR at a precision that exceeds the separation of
    distinct roots of such coefficients many times over. */
 #include "number/quad.h"
+#include "share.h"
 
 #include <float.h>
 #include <math.h>
@@ -151,7 +152,7 @@ static void test_order(void **state) {
     }
     clear();
   }
-  for (int i = 0; i < 6000; i++) {
+  for (int i = 0; i < share_of(6000); i++) {
     int64_t size = (int64_t)1 << (1 + next() % 40);
     qn_quad p, q;
     switch (next() % 5) {
@@ -189,7 +190,7 @@ static void test_order(void **state) {
       clear();
     }
   }
-  assert_true(c.ties > 2000 && c.less > 5000 && c.more > 5000 && c.linear > 500 && c.dbl > 500 && c.two > 5000 && c.negative > 3000 && c.proportional > 500);
+  assert_true(c.ties > share_min(2000) && c.less > share_min(5000) && c.more > share_min(5000) && c.linear > share_min(500) && c.dbl > share_min(500) && c.two > share_min(5000) && c.negative > share_min(3000) && c.proportional > share_min(500));
 }
 
 static void test_kinds(void **state) {
@@ -252,7 +253,7 @@ static void check_rounding(const qn_quad *q, unsigned *seen) {
 static void test_to_double(void **state) {
   (void)state;
   unsigned seen = 0;
-  for (int i = 0; i < 20000; i++) {
+  for (int i = 0; i < share_of(20000); i++) {
     qn_quad q;
     qn_int a = random_int(next() % 300), h = random_int(next() % 300), c = random_int(next() % 400);
     if (next() % 8 == 0) {
@@ -270,14 +271,14 @@ static void test_to_double(void **state) {
       clear();
     }
   }
-  assert_true(seen > 15000);
+  assert_true(seen > share_min(15000));
 }
 
 /* (D t - m)(t - k) with m/D in the middle between two doubles, and off it by 2^-300: ties go to even, the rest to their side. */
 static void test_to_double_middles(void **state) {
   (void)state;
   unsigned seen = 0;
-  for (int i = 0; i < 4000; i++) {
+  for (int i = 0; i < share_of(4000); i++) {
     int64_t m = (int64_t)(((uint64_t)1 << 53) + (next() >> 12 << 1) + 1); /* 54 bits, odd: a middle */
     if (next() & 1) {
       m = -m;
@@ -303,14 +304,14 @@ static void test_to_double_middles(void **state) {
       clear();
     }
   }
-  assert_true(seen > 12000);
+  assert_true(seen > share_min(12000));
 }
 
 /* Overflow, subnormals, and the least half. */
 static void test_to_double_range(void **state) {
   (void)state;
   unsigned seen = 0;
-  for (int i = 0; i < 4000; i++) {
+  for (int i = 0; i < share_of(4000); i++) {
     qn_int n = qn_int_from(&ctx, pick((int64_t)1 << (next() % 60))), one = qn_int_from(&ctx, (int64_t)(1 + next() % 7));
     size_t shift = next() & 1 ? 940 + next() % 90 : 1040 + next() % 100;
     qn_quad q;
@@ -328,7 +329,7 @@ static void test_to_double_range(void **state) {
       clear();
     }
   }
-  assert_true(seen > 10000);
+  assert_true(seen > share_min(10000));
 }
 
 /* S2: the same plane through two roundings ties; a gap of 2^-150 does not. */

@@ -1,6 +1,7 @@
 /* Lanes of a tile that end on one plane, and other surfaces that pass through their places or between them (query/alone.c): boxes, balls and cylinders with whole
    numbers, so that arithmetic on integers knows which lanes have the plane for themselves. */
 #include "ask.h"
+#include "share.h"
 
 #include "query/look.h"
 
@@ -61,7 +62,7 @@ static int passes(const thing *t, const int x[3]) {
 static void lattice(void **state) {
   (void)state;
   size_t kept = 0, free_lanes = 0, taken = 0, whole = 0;
-  for (int round = 0; round < 3000; round++) {
+  for (int round = 0; round < share_of(3000); round++) {
     thing things[LEAVES];
     static char text[LEAVES * 200];
     size_t n = 0;
@@ -118,7 +119,7 @@ static void lattice(void **state) {
     ask_close(&a);
   }
   print_message("lanes with another surface %zu, without %zu, of which known %zu; whole tiles %zu\n", taken, free_lanes, kept, whole);
-  assert_true(taken > 5000 && whole > 50);
+  assert_true(taken > share_min(5000) && whole > share_min(50));
   assert_true(kept > free_lanes - free_lanes / 10); /* else nothing is gained */
 }
 

@@ -1,5 +1,6 @@
 /* Lines that run in surfaces which many leaves share: that they end, whose ends are named, fans of slices about an axis. */
 #include "ray/rays.h"
+#include "share.h"
 
 static uint64_t seed = 0x2545f4914f6cdd1du;
 static uint64_t next(void) {
@@ -41,12 +42,12 @@ QN_PRINTF(2, 3) static void say(text *t, const char *format, ...) {
    took minutes each. */
 static void test_many(void **state) {
   (void)state;
-  enum { N = 100000 };
-  static const struct { const char *each; double o[3], d[3], enter, leave; } asked[] = {
+  const int N = share_of(100000);
+  const struct { const char *each; double o[3], d[3], enter, leave; } asked[] = {
     {"cube([10, 10, 10]);", {0, 5, -5}, {0, 0, 1}, 5, 15},                          /* in a face, all alike */
     {"cube([10, 10, 10]);", {0, 0, -5}, {0, 0, 1}, 5, 15},                          /* along an edge */
     {"cube([%d, 10, 10]);", {-5, 0, 5}, {1, 0, 0}, 5, 5 + N},                       /* begin together */
-    {"translate([%d, 0, 0]) cube([100000, 10, 10]);", {-5, 0, 5}, {1, 0, 0}, 6, 5 + 2 * N}, /* all of them open in the middle */
+    {"translate([%d, 0, 0]) cube([100000, 10, 10]);", {-5, 0, 5}, {1, 0, 0}, 6, 5 + 100000 + N}, /* all of them open in the middle */
     {"cylinder(h = %d, r = 5);", {0, 5, -2}, {0, 0, 1}, 2, 2 + N},                  /* along a generator */
     {"cylinder(h = 10, r1 = 5, r2 = 0);", {5, 0, 0}, {-1, 0, 2}, 0, 5},
   };
@@ -170,7 +171,7 @@ static void test_points(void **state) {
   static const char *const OPS[] = {"union", "difference", "intersection"};
   static const int WAYS[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}};
   size_t kinds[3] = {0};
-  for (int round = 0; round < 150; round++) {
+  for (int round = 0; round < share_of(150); round++) {
     text t = {0};
     char leaf[200];
     say(&t, "%s() {", OPS[below(3)]);
@@ -229,7 +230,7 @@ static void test_points(void **state) {
     stage_close(&st);
     free(t.at);
   }
-  assert_true(kinds[0] > 300 && kinds[1] > 300 && kinds[2] > 3000);
+  assert_true(kinds[0] > share_min(300) && kinds[1] > share_min(300) && kinds[2] > share_min(3000));
 }
 
 int main(void) {

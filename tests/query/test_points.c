@@ -6,6 +6,7 @@
 #include "ask.h"
 #include "base/bounds.h"
 #include "query/work.h"
+#include "share.h"
 
 #include "packet_cases.h"
 
@@ -395,7 +396,7 @@ static void threads(void **state) {
 }
 
 int main(int words, char **word) {
-  model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
+  model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : (size_t)share_of((int)model_count);
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   const struct CMUnitTest tests[] = {cmocka_unit_test(random_models), cmocka_unit_test(large_models), cmocka_unit_test(decimals),
                                      cmocka_unit_test(far_decimals), cmocka_unit_test(on_the_borders_of_cells), cmocka_unit_test(refused),       cmocka_unit_test(threads)};

@@ -1,6 +1,7 @@
 /* Snapped scenes answer as the same half-spaces do when they are written out one by one, which have no boxes and no kinds. */
 #include "scene/reading.h"
 #include "scene/snap.h"
+#include "share.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -118,7 +119,7 @@ static void same_as_written_out(void **unused) {
   (void)unused;
   size_t ends = 0, moved = 0;
   state = 0x5555aaaa12345u;
-  for (int round = 0; round < 150; round++) {
+  for (int round = 0; round < share_of(150); round++) {
     static char text[20000];
     text[0] = '\0';
     for (int i = 0; i < 10; i++) {
@@ -129,7 +130,7 @@ static void same_as_written_out(void **unused) {
     ends += same_answers(s, 60);
     quoin_scene_free(s);
   }
-  assert_true(moved > 500 && ends > 3000);
+  assert_true(moved > share_min(500) && ends > share_min(3000));
 }
 
 /* Tilted caps, and bodies whose box has to be found anew: each must be bounded. */

@@ -1,6 +1,7 @@
 /* The cells next to a point (design S6): named contacts with their sides worked out by hand, and random germs against
    exact sampling along curves into the point. */
 #include "ray/around_cells.h"
+#include "share.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -342,7 +343,7 @@ static void random_germs(void **state) {
   (void)state;
   seed = 0x9e3779b97f4a7c15u;
   size_t census[4] = {0}, cells = 0, met = 0;
-  for (int round = 0; round < 4000; round++) {
+  for (int round = 0; round < share_of(4000); round++) {
     surface s[5];
     size_t n = 2 + (size_t)below(4);
     for (size_t i = 0; i < n;) {
@@ -417,7 +418,7 @@ static void random_germs(void **state) {
     }
     close_world(&w);
   }
-  assert_true(census[0] > 400 && census[1] > 400);
+  assert_true(census[0] > share_min(400) && census[1] > share_min(400));
   /* What is listed beyond what was sampled is little: thin cells that sampling missed, and open signs. */
   print_message("cells listed %zu, met by samples %zu\n", cells, met);
   assert_true(met * 100 >= cells * 90);
@@ -457,7 +458,7 @@ static void fans(void **state) {
   (void)state;
   enum { REACH = 8, FAR = 3 };
   seed = 0x9e3779b97f4a7c15u;
-  for (int round = 0; round < 300; round++) {
+  for (int round = 0; round < share_of(300); round++) {
     surface s[MOST];
     int axis[3], lines = 3 + below(MOST - 3), with = below(2), n = lines + with, across = with ? below(n) : n;
     do {
@@ -570,7 +571,7 @@ static void curved_fans(void **state) {
 static void orders(void **state) {
   (void)state;
   seed = 0x2545f4914f6cdd1du;
-  for (int round = 0; round < 500; round++) {
+  for (int round = 0; round < share_of(500); round++) {
     surface s[4], t[4];
     size_t n = 4;
     for (size_t i = 0; i < n;) {

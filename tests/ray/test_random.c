@@ -1,6 +1,7 @@
 /* Random scenes of small integers, where ties abound, against an evaluator of its own in many bits; and boxes, whose faces the
    lines run in and whose corners they touch, against a look at the eight octants of a point. */
 #include "rays.h"
+#include "share.h"
 
 #include <mpfr.h>
 
@@ -227,7 +228,7 @@ static void test_random_scenes(void **state) {
   (void)state;
   unsigned rays = 0, in_surface = 0, with_answer = 0, ties = 0, wrong = 0, many = 0, cut = 0;
   qn_counts counts = {0};
-  for (int n = 0; n < 600; n++) {
+  for (int n = 0; n < share_of(600); n++) {
     char texts[LEAVES][300], text[4000];
     leaf_total = 1 + (int)below(LEAVES);
     node_total = 0;
@@ -296,7 +297,7 @@ static void test_random_scenes(void **state) {
                 with_answer, many, cut, ties, (unsigned long long)counts.filter_sure, (unsigned long long)counts.exact_signs, (unsigned long long)counts.exact_orders,
                 (unsigned long long)counts.exact_roundings);
   assert_int_equal(wrong, 0);
-  assert_true(in_surface > 500 && with_answer > 3000 && many > 300 && cut > 5000 && ties > 10000);
+  assert_true(in_surface > share_min(500) && with_answer > share_min(3000) && many > share_min(300) && cut > share_min(5000) && ties > share_min(10000));
 }
 
 /* --- boxes: what is beside a line that runs in faces or touches corners, by the eight octants of a point -------------- */
@@ -418,7 +419,7 @@ static void stretches_of(stage *st, qn_line *line, const qn_range *range, char *
 static void test_boxes(void **state) {
   (void)state;
   unsigned rays = 0, on = 0, at = 0, answers = 0, wrong = 0;
-  for (int n = 0; n < 200; n++) {
+  for (int n = 0; n < share_of(200); n++) {
     char texts[LEAVES][300], text[4000];
     leaf_total = 1 + (int)below(LEAVES);
     node_total = 0;
@@ -480,7 +481,7 @@ static void test_boxes(void **state) {
   }
   print_message("%u rays, %u with an answer, %u on a boundary, %u contacts\n", rays, answers, on, at);
   assert_int_equal(wrong, 0);
-  assert_true(rays == 8000 && answers > 500 && on > 300 && at > 200);
+  assert_true(rays == 40 * (unsigned)share_of(200) && answers > share_min(500) && on > share_min(300) && at > share_min(200));
 }
 
 int main(void) {

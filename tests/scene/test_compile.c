@@ -1,6 +1,7 @@
 /* The walk over the tree: Booleans, the dialect's rules on absent and empty things, simplification, materials, names, deep trees,
    refused memory. */
 #include "scene/reading.h"
+#include "share.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -97,7 +98,7 @@ static int program_value(const quoin_scene *s, qn_eval *eval, const double p[3])
 static void random_booleans(void **unused) {
   (void)unused;
   size_t inside = 0, dropped = 0, kept = 0;
-  for (int round = 0; round < 600; round++) {
+  for (int round = 0; round < share_of(600); round++) {
     node_count = 0;
     at = 0;
     int root = grow(5), cubes = 0;
@@ -127,7 +128,7 @@ static void random_booleans(void **unused) {
     quoin_scene_free(s);
   }
   print_message("%zu leaves kept, %zu dropped, %zu points inside\n", kept, dropped, inside);
-  assert_true(inside > 1000 && dropped > 1000 && kept > 1000);
+  assert_true(inside > share_min(1000) && dropped > share_min(1000) && kept > share_min(1000));
 }
 
 /* --- the dialect's rules ------------------------------------------------------------------------------------------------ */

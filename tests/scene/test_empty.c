@@ -1,5 +1,6 @@
 /* What is called empty is empty: random trees of boxes between whole numbers, judged cell by cell; and that the plain cases are seen. */
 #include "scene/reading.h"
+#include "share.h"
 
 static uint64_t state = 161803;
 static int in(int low, int high) {
@@ -50,7 +51,7 @@ static uint32_t grow(int depth) {
 static void random_trees(void **unused) {
   (void)unused;
   size_t called = 0, empty = 0, full = 0;
-  for (int round = 0; round < 6000; round++) {
+  for (int round = 0; round < share_of(6000); round++) {
     at = 0;
     uint32_t cells = grow(in(1, 4));
     quoin_scene *s = scene_of(text);
@@ -64,7 +65,7 @@ static void random_trees(void **unused) {
     quoin_scene_free(s);
   }
   print_message("%zu called empty of %zu that are\n", called, empty);
-  assert_true(full > 2000 && empty > 200 && 3 * called > empty);
+  assert_true(full > share_min(2000) && empty > share_min(200) && 3 * called > empty);
 }
 
 static void expect(const char *model, int empty) {

@@ -3,6 +3,7 @@
    Leaves are sets of cells of a small grid: any subset of the cells in the leaf's box, drawn by a hash. So a leaf is not its box, a
    clipped union that is used outside its clip shows, and so does a term or a node whose box is too small. */
 #include "scene/scene.h"
+#include "share.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -310,7 +311,7 @@ static void random_trees(void **unused) {
   static world w;
   w.mem = &mem;
   census c = {0};
-  for (int round = 0; round < 1800; round++) {
+  for (int round = 0; round < share_from(300, 1800); round++) {
     const shape *s = &shapes[(size_t)round % (sizeof shapes / sizeof *shapes)];
     static const uint32_t sizes[] = {3, 12, 40, 100, 220};
     draw_tree(&w, 1 + rnd(sizes[(round / 9) % (s->deep ? 4 : 5)]), s);
@@ -327,7 +328,7 @@ static void random_trees(void **unused) {
   }
   print_message("shared %zu, copied %zu, complements %zu, wide %zu, plus %zu, several %zu, empty %zu\n", c.shared, c.copied, c.complements,
                 c.wide, c.plus, c.several, c.empty);
-  assert_true(c.shared > 80 && c.copied > 50 && c.complements > 300 && c.wide > 10 && c.plus > 100 && c.several > 500 && c.empty > 2);
+  assert_true(c.shared > share_min(80) && c.copied > share_min(50) && c.complements > share_min(300) && c.wide > share_min(10) && c.plus > share_min(100) && c.several > share_min(500) && c.empty > share_min(2));
   assert_int_equal(mem.used, 0);
 }
 
@@ -339,7 +340,7 @@ static void wide_gates(void **unused) {
   static world w;
   w.mem = &mem;
   size_t shared = 0;
-  for (int round = 0; round < 60; round++) {
+  for (int round = 0; round < share_from(8, 60); round++) {
     const shape s = {.open = (uint32_t)(round % 3 == 0), .size = 2};
     size_t n = 1;
     int negative = round % 2;
@@ -374,7 +375,7 @@ static void wide_gates(void **unused) {
     compare(&w, 300);
     free_scene(&w);
   }
-  assert_true(shared >= 10);
+  assert_true(shared >= share_min(10));
   assert_int_equal(mem.used, 0);
 }
 

@@ -1,5 +1,6 @@
 /* Programs against a plain evaluation of the tree they were made of. */
 #include "scene/program.h"
+#include "share.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -79,7 +80,7 @@ static void random_trees_one_way(int with_paths) {
   qn_mem_init(&mem, NULL);
   size_t kept = 0, dropped = 0, constant = 0, deep = 0;
   state = 12345;
-  for (int round = 0; round < 3000; round++) {
+  for (int round = 0; round < share_of(3000); round++) {
     qn_term terms[MOST], copy[MOST];
     size_t n = random_tree(terms, 1 + rnd(MOST - 1), rnd(3) == 0);
     for (size_t i = 0; i < n; i++) {
@@ -123,7 +124,7 @@ static void random_trees_one_way(int with_paths) {
     qn_eval_free(&eval, &mem);
     qn_program_free(&p, &mem);
   }
-  assert_true(kept > 10000 && dropped > 1000 && constant > 50 && deep > 500); /* each kind did occur */
+  assert_true(kept > share_min(10000) && dropped > share_min(1000) && constant > share_min(50) && deep > share_min(500)); /* each kind did occur */
   assert_int_equal(mem.used, 0);
 }
 

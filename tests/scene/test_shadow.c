@@ -1,6 +1,7 @@
 /* Every double shadow against the exact number it stands for (QN_SHADOW), and every leaf's box against its exact extent. */
 #include "base/bounds.h"
 #include "scene/reading.h"
+#include "share.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -272,7 +273,7 @@ static void random_leaf(void) {
 static void QN_SHADOW_random_models(void **unused) {
   (void)unused;
   size_t leaves = 0;
-  for (int round = 0; round < 150; round++) {
+  for (int round = 0; round < share_of(150); round++) {
     at = 0;
     for (int i = in(1, 10); i; i--) {
       for (int depth = in(0, 5); depth; depth--) {
@@ -287,7 +288,7 @@ static void QN_SHADOW_random_models(void **unused) {
     quoin_scene_free(s);
   }
   print_message("%zu leaves, %zu numbers, %zu exact zeros, %zu rounded\n", leaves, numbers, zeros, roundings);
-  assert_true(leaves > 500 && numbers > 10000 && zeros > 2000 && roundings > 2000);
+  assert_true(leaves > share_min(500) && numbers > share_min(10000) && zeros > share_min(2000) && roundings > share_min(2000));
 }
 
 /* Sums that cancel, exactly or nearly; and sizes that leave the range of doubles. */
@@ -379,7 +380,7 @@ static void rests_of_spheres(void **unused) {
 static void boxes_hold_corners(void **unused) {
   (void)unused;
   size_t tight = 0;
-  for (int round = 0; round < 300; round++) {
+  for (int round = 0; round < share_of(300); round++) {
     at = 0;
     int n = in(0, 3), steps[4][6];
     for (int i = 0; i < n; i++) {
@@ -447,7 +448,7 @@ static void boxes_hold_corners(void **unused) {
     mpq_clears(t, u, NULL);
     quoin_scene_free(s);
   }
-  assert_true(tight > 800);
+  assert_true(tight > share_min(800));
 }
 
 static void boxes_of_aligned_solids_are_exact(void **unused) {

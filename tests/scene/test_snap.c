@@ -1,6 +1,7 @@
 /* Near surfaces and snapping (S4): gaps by hand, and the property on random models. */
 #include "scene/reading.h"
 #include "scene/snap.h"
+#include "share.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -356,7 +357,7 @@ static void property_of_boxes(void **unused) {
     mpq_init(was[i]);
     mpq_init(now[i]);
   }
-  for (int round = 0; round < 400; round++) {
+  for (int round = 0; round < share_of(400); round++) {
     static char text[BOXES * 300];
     char *at = text;
     for (int i = 0; i < BOXES; i++) {
@@ -418,7 +419,7 @@ static void property_of_boxes(void **unused) {
     mpq_clear(now[i]);
   }
   mpq_clear(limit);
-  assert_true(moved > 1000 && kept > 1000 && gone > 20);
+  assert_true(moved > share_min(1000) && kept > share_min(1000) && gone > share_min(20));
 }
 
 /* --- the property, on round solids ----------------------------------------------------------------------------------- */
@@ -476,7 +477,7 @@ static void property_of_round_solids(void **unused) {
   enum { N = 40 };
   size_t moved = 0, kept = 0;
   state = 0xfedcba987654321u;
-  for (int round = 0; round < 100; round++) {
+  for (int round = 0; round < share_of(100); round++) {
     static char text[N * 200];
     char *at = text;
     int axes = round % 2 ? 2 : 3;
@@ -515,7 +516,7 @@ static void property_of_round_solids(void **unused) {
     quoin_scene_free(plain);
     quoin_scene_free(snap);
   }
-  assert_true(moved > 500 && kept > 500);
+  assert_true(moved > share_min(500) && kept > share_min(500));
 }
 
 int main(void) {

@@ -201,7 +201,7 @@ static void cancelled(void **unused) {
   telling t = {.stop = 2, .caller = pthread_self()};
   o.progress = (quoin_progress){tell, &t};
   assert_int_equal(quoin_scene_compile(m, &o, &s), QUOIN_OK);
-  assert_true(t.last == 1 && t.calls > 5);
+  assert_true(t.last == 1 && t.calls > 2); /* between two stages, and as often as this thread has its turn among the four */
   quoin_scene_free(s);
   quoin_model_free(m);
   free(text);

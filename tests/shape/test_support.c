@@ -1,5 +1,6 @@
 /* Support functions: never below v . x for rational points x of the exact solid, whose arguments are decimals that the doubles
    given to the function only approximate (exact comparison); and close above the highest point. (u, v) in its range. */
+#include "share.h"
 #include "surface.h"
 #include "textbook.h"
 
@@ -80,9 +81,10 @@ static void highest(bench *b, const solid *s, const double v[3], qn_num x[3]) {
       circle_at(b, atan2(v[1], v[0]), c);
       qn_num r = a[1], z = MUL(a[0], INT(v[2] < 0 ? -1 : 1));
       if (d[2] > d[1] && d[1] * d[0] * fabs(v[2]) < E * E * rho) { /* a barrel, not full up: z = h rc sin / E needs E rational: take z, */
-        double angle = atan2(d[0] * v[2] / E, rho);                /* and a radius just inside the surface */
+        double angle = atan2(d[0] * v[2] / E, rho);                /* and a radius inside the surface by what its own root may be off, terms cancelling */
         z = qn_num_from_double(&b->ctx, d[0] * d[2] / E * sin(angle));
-        r = qn_num_from_double(&b->ctx, sqrt(d[2] * d[2] - E * E * pow(qn_num_to_double(z) / d[0], 2)) * (1 - 0x1p-48));
+        double r2 = d[2] * d[2] - E * E * pow(qn_num_to_double(z) / d[0], 2);
+        r = qn_num_from_double(&b->ctx, sqrt(r2) * (1 - 0x1p-48 * d[2] * d[2] / r2));
       }
       x[0] = MUL(c[0], r);
       x[1] = MUL(c[1], r);
@@ -140,7 +142,7 @@ enum { PRIMS = sizeof prims / sizeof *prims };
 static void holds_the_solid_and_is_tight(void **state) {
   bench *b = *state;
   for (int p = 0; p < PRIMS; p++) {
-    for (int round = 0; round < 400; round++) {
+    for (int round = 0; round < share_of(400); round++) {
       qn_mark mark = qn_arena_mark(&b->ctx.arena);
       solid s = random_bounded(b, prims[p]);
       double args[6], v[3];
@@ -177,7 +179,7 @@ static void placed(void **state) {
     if (!qn_prims[prims[p]].round) {
       continue;
     }
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < share_of(300); round++) {
       qn_mark mark = qn_arena_mark(&b->ctx.arena);
       solid s = random_bounded(b, prims[p]);
       int elliptic = s.prim == QN_ELLIPSOID || s.prim == QN_CYLINDER || s.prim == QN_PARABOLOID, which = elliptic ? 0 : below(b, 3);
@@ -251,7 +253,7 @@ static void placed(void **state) {
 /* Prisms: the vertices, to the S2 precision of their sines. */
 static void prism(void **state) {
   bench *b = *state;
-  for (int round = 0; round < 300; round++) {
+  for (int round = 0; round < share_of(300); round++) {
     qn_mark mark = qn_arena_mark(&b->ctx.arena);
     int sides = 3 + below(b, 12);
     qn_num args[5] = {INT(sides), size(b), size(b), below(b, 3) ? size(b) : INT(0), INT(below(b, 2))};
@@ -306,7 +308,7 @@ static void exact_zero(void **state) {
 static void parameters(void **state) {
   bench *b = *state;
   for (int p = 0; p < PRIMS; p++) {
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < share_of(300); round++) {
       qn_mark mark = qn_arena_mark(&b->ctx.arena);
       solid s = random_bounded(b, prims[p]);
       make(b, &s, NULL);

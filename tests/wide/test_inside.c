@@ -1,6 +1,7 @@
 /* QN_POINT_BALL_E and QN_POINT_BOX_SLACK in rationals: what is called sure of a point and a piece is so, with every stored number as far off as its
    contract allows; and the bounds bite: values within them do come out on the wrong side. (Planes and quadrics: tests/query/test_bounds.c
    for the bounds, tests/query/test_points.c for their use.) */
+#include "share.h"
 #include "wide/inside.h"
 
 #include <gmp.h>
@@ -55,7 +56,7 @@ static void balls(void **state) {
   census c = {0};
   mpq_t e, x, y, sum;
   mpq_inits(e, x, y, sum, NULL);
-  for (int round = 0; round < 200000; round++) {
+  for (int round = 0; round < share_of(200000); round++) {
     int range = below(3) ? 4 : 40;
     qn_piece_sphere s = {.off = below(2) ? 0 : (float)(fabs(part(range)) * 0x1p-53)};
     double at[3];
@@ -94,7 +95,7 @@ static void balls(void **state) {
     c.crossed += (value > third && truth < 0) || (value < -third && truth > 0);
   }
   print_message("balls: %zu in, %zu out, %zu not sure; wrong with a third of the bound: %zu\n", c.in, c.out, c.open, c.crossed);
-  assert_true(c.in > 20000 && c.out > 20000 && c.open > 20000 && c.crossed > 500);
+  assert_true(c.in > share_min(20000) && c.out > share_min(20000) && c.open > share_min(20000) && c.crossed > share_min(500));
   mpq_clears(e, x, y, sum, NULL);
 }
 
@@ -103,7 +104,7 @@ static void boxes(void **state) {
   census c = {0};
   mpq_t e, x, lo, hi;
   mpq_inits(e, x, lo, hi, NULL);
-  for (int round = 0; round < 200000; round++) {
+  for (int round = 0; round < share_of(200000); round++) {
     qn_piece_box b = {.off = below(3) ? fabs(part(60)) * 0x1p-50 : 0};
     double at[3];
     qn_wide_point p = {at, 0};
@@ -139,7 +140,7 @@ static void boxes(void **state) {
     c.crossed += (depth > 0.9 * near && truth < 0) || (depth < -0.9 * near && truth > 0);
   }
   print_message("boxes: %zu in, %zu out, %zu not sure; wrong with nine tenths of the bound: %zu\n", c.in, c.out, c.open, c.crossed);
-  assert_true(c.in > 5000 && c.out > 20000 && c.open > 20000 && c.crossed > 500);
+  assert_true(c.in > share_min(5000) && c.out > share_min(20000) && c.open > share_min(20000) && c.crossed > share_min(500));
   mpq_clears(e, x, lo, hi, NULL);
 }
 

@@ -4,6 +4,7 @@
 #include "number/quad.h"
 #include "base/bounds.h"
 #include "scene/rounding.h"
+#include "share.h"
 #include "wide/packet.h"
 
 #include <math.h>
@@ -230,7 +231,7 @@ static void test_shapes(void **state) {
     assert_true(st.scene->surface_count > 25);
     census c = {0};
     b.count = 0;
-    for (int n = 0; n < 3000; n++) {
+    for (int n = 0; n < share_from(400, 3000); n++) {
       uint32_t surface = (uint32_t)(next() % st.scene->surface_count);
       int run = one_in(2) ? 1 : (int)(next() % 20), axis = one_in(3) ? (int)(next() % 3) : -1;
       double away = one_in(8) ? 1e4 : 10;
@@ -256,7 +257,7 @@ static void test_shapes(void **state) {
     flush(&st, &b, &c);
     for (size_t k = 0; k < body_count; k++) {
       print_message("%s, t to 2^-%d: %s sure of %u of %u\n", set->place, set->bits, bodies[k]->name, c.sure[k], c.lanes);
-      assert_true(c.lanes > 3000 && c.sure[k] >= set->least * c.lanes);
+      assert_true(c.lanes > share_min(3000) && c.sure[k] >= set->least * c.lanes);
       assert_true(set->size < 1e20 || c.sure[k] == 0);
     }
     stage_close(&st);
@@ -272,7 +273,7 @@ static void test_balls(void **state) {
   stage_open(&st, "translate([1000.1, 0.3, -700.7]) sphere(0.3); translate([0.1, 2000.2, 3.3]) sphere(0.7); translate([-500.1, 33.3, 0.7]) sphere(1/3);");
   census c = {0};
   b.count = 0;
-  for (int n = 0; n < 6000; n++) {
+  for (int n = 0; n < share_of(6000); n++) {
     const uint32_t surface = (uint32_t)(n / 3 % 3);
     const double *pivot = st.scene->leaves[st.scene->surfaces[surface].leaf].pivot;
     double d[3], o[3];
@@ -284,7 +285,7 @@ static void test_balls(void **state) {
   }
   flush(&st, &b, &c);
   print_message("balls: sure of %u of %u\n", c.sure[0], c.lanes);
-  assert_true(c.lanes > 5000 && c.sure[0] > 0.999 * c.lanes);
+  assert_true(c.lanes > share_min(5000) && c.sure[0] > 0.999 * c.lanes);
   stage_close(&st);
 }
 
@@ -298,7 +299,7 @@ static void test_grazing(void **state) {
   census c = {0};
   unsigned apart = 0;
   b.count = 0;
-  for (int n = 0; n < 6000; n++) {
+  for (int n = 0; n < share_of(6000); n++) {
     uint32_t surface = (uint32_t)(next() % st.scene->surface_count);
     int k = (int)(next() % 52);
     const double o[3] = {-5 + part(), 1 - ldexp(1 + (double)(next() % 3), -k), one_in(2) ? 0 : surface == 1 ? 5 : -7}, d[3] = {1, 0, 0};
@@ -306,7 +307,7 @@ static void test_grazing(void **state) {
   }
   flush(&st, &b, &c);
   print_message("grazing: sure of %u of %u\n", c.sure[0], c.lanes);
-  assert_true(apart > 3000 && c.sure[0] > c.lanes / 4);
+  assert_true(apart > share_min(3000) && c.sure[0] > c.lanes / 4);
   stage_close(&st);
 }
 
@@ -319,7 +320,7 @@ static void test_middles(void **state) {
   census c = {0};
   unsigned middles = 0;
   b.count = 0;
-  for (int n = 0; n < 300; n++) {
+  for (int n = 0; n < share_of(300); n++) {
     int k = (int)(next() % 1000), off = (int)(next() % 3) - 1, bits = 54 + (int)(next() % 100);
     char text[300];
     snprintf(text, sizeof text,
@@ -335,7 +336,7 @@ static void test_middles(void **state) {
     stage_close(&st);
   }
   print_message("middles: sure of %u of %u, %u exactly there\n", c.sure[0], c.lanes, middles);
-  assert_true(middles > 50 && c.lanes > 500 && c.sure[0] > c.lanes / 10 && c.sure[0] < c.lanes * 2 / 3);
+  assert_true(middles > share_min(50) && c.lanes > share_min(500) && c.sure[0] > c.lanes / 10 && c.sure[0] < c.lanes * 2 / 3);
 }
 
 /* --- numbers at and past the edges of the range: any lane may be unsure, none wrong --------------------------------- */
@@ -348,7 +349,7 @@ static void test_range(void **state) {
                   "halfspace(n = [1, 1e-30, 0], d = 0); translate([0, 0, 1e40]) sphere(1e-20);");
   census c = {0};
   b.count = 0;
-  for (int n = 0; n < 20000; n++) {
+  for (int n = 0; n < share_of(20000); n++) {
     uint32_t surface = (uint32_t)(next() % st.scene->surface_count);
     int e = (int)(next() % 2000) - 1000, f = one_in(2) ? 0 : (int)(next() % 400) - 200;
     double o[3], d[3];
@@ -362,7 +363,7 @@ static void test_range(void **state) {
   }
   flush(&st, &b, &c);
   print_message("range: sure of %u of %u\n", c.sure[0], c.lanes);
-  assert_true(c.lanes > 10000 && c.sure[0] > c.lanes / 20 && c.sure[0] < c.lanes);
+  assert_true(c.lanes > share_min(10000) && c.sure[0] > c.lanes / 20 && c.sure[0] < c.lanes);
   stage_close(&st);
 }
 

@@ -6,6 +6,7 @@
 #ifndef QN_ISA_AVX2
 #define QN_ISA_SSE2 /* products and sums rounded apart: the worst of the bodies */
 #endif
+#include "share.h"
 #include "wide/facts.h"
 
 #include <gmp.h>
@@ -460,7 +461,7 @@ static void bodies_and_caps(void **state) {
   (void)state;
   census c = {0};
   size_t slabs = 0;
-  for (int round = 0; round < 1500; round++) {
+  for (int round = 0; round < share_of(1500); round++) {
     piece p;
     make_piece(&p, one_in(4) ? ldexp(1, below(50)) : 1);
     make_packet(&p, &packet);
@@ -513,13 +514,13 @@ static void bodies_and_caps(void **state) {
     }
   }
   report("bodies", &c);
-  assert_true(c.hits > 10000 && c.misses > 10000 && c.unsure > 1000 && c.unsure < c.lanes / 2 && slabs > 200);
+  assert_true(c.hits > share_min(10000) && c.misses > share_min(10000) && c.unsure > share_min(1000) && c.unsure < c.lanes / 2 && slabs > share_min(200));
 }
 
 static void spheres(void **state) {
   (void)state;
   census c = {0};
-  for (int round = 0; round < 800; round++) {
+  for (int round = 0; round < share_of(800); round++) {
     piece p;
     do {
       make_piece(&p, one_in(4) ? ldexp(1, below(50)) : 1);
@@ -559,18 +560,18 @@ static void spheres(void **state) {
     }
   }
   report("spheres", &c);
-  assert_true(c.hits > 5000 && c.misses > 5000 && c.unsure > 100 && c.unsure < c.lanes / 2);
+  assert_true(c.hits > share_min(5000) && c.misses > share_min(5000) && c.unsure > share_min(100) && c.unsure < c.lanes / 2);
 }
 
 static void boxes(void **state) {
   (void)state;
   census c = {0};
-  for (int round = 0; round < 800; round++) {
+  for (int round = 0; round < share_of(800); round++) {
     piece p;
     do {
       make_piece(&p, one_in(4) ? ldexp(1, below(50)) : 1);
     } while (p.caps);
-    qn_piece_box stored = {.head = {QN_PIECE_BOX, 3}, .off = one_in(2) ? 0 : ldexp(1, -20 - below(40))};
+    qn_piece_box stored = {.head = {.kind = QN_PIECE_BOX, .flags = 3}, .off = one_in(2) ? 0 : ldexp(1, -20 - below(40))};
     for (int i = 0; i < 3; i++) {
       double size = ldexp(1 + 0.5 * part(), one_in(3) ? -below(30) : 0);
       stored.lo[i] = p.pivot[i] - size, stored.hi[i] = p.pivot[i] + size;
@@ -618,14 +619,14 @@ static void boxes(void **state) {
     }
   }
   report("boxes", &c);
-  assert_true(c.hits > 5000 && c.misses > 5000 && c.unsure > 100);
+  assert_true(c.hits > share_min(5000) && c.misses > share_min(5000) && c.unsure > share_min(100));
 }
 
 /* Planes in any number and place, within a ball: edges, corners, planes that the line nearly runs in. */
 static void planes(void **state) {
   (void)state;
   census c = {0};
-  for (int round = 0; round < 1500; round++) {
+  for (int round = 0; round < share_of(1500); round++) {
     piece p;
     do {
       make_piece(&p, one_in(4) ? ldexp(1, below(50)) : 1);
@@ -692,7 +693,7 @@ static void planes(void **state) {
     }
   }
   report("planes", &c);
-  assert_true(c.hits > 5000 && c.misses > 5000 && c.unsure > 500);
+  assert_true(c.hits > share_min(5000) && c.misses > share_min(5000) && c.unsure > share_min(500));
 }
 
 static void floats_outward(void **state) {
