@@ -118,8 +118,8 @@ QUOIN_API quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_wor
    status is about. */
 QUOIN_API quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_work *work, size_t n, const char *const *points, quoin_side *out,
                                               size_t *done);
-/* The parts whose closed solids hold the point of the last quoin_point_side*, in the order of the file: up to `size` of
-   them into parts; *count is how many there are. */
+/* The parts whose closed solids hold a point, in the order of the file: up to `size` of them into parts; *count is how many there are. Parts that do not
+   matter to the solid anywhere are not among them; nor is one without a surface, such as a quadric that is all of space. */
 QUOIN_API quoin_status quoin_point_parts(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_part *parts, size_t size, size_t *count);
 QUOIN_API quoin_status quoin_point_parts_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_part *parts, size_t size, size_t *count);
 

@@ -2,6 +2,7 @@
 #include "base/limits.h"
 #include "model/words.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -125,11 +126,20 @@ const char *qn_arg_string(qn_call *call, int parameter, size_t *length) {
   return NULL;
 }
 
+double qn_arg_finite(qn_call *call, int parameter, qn_num n) {
+  const double v = qn_num_to_double(n);
+  if (!isfinite(v)) {
+    qn_arg_tell(call, QN_Q0508, parameter, "what a picture takes is at most 1.79e308", "write a smaller number", "a number is too large");
+    return 0;
+  }
+  return v;
+}
+
 double qn_arg_double(qn_call *call, int parameter, double fallback) {
   if (!qn_arg_given(call, parameter)) {
     return fallback;
   }
-  return qn_num_to_double(qn_arg_number(call, parameter, QN_NUM_ZERO));
+  return qn_arg_finite(call, parameter, qn_arg_number(call, parameter, QN_NUM_ZERO));
 }
 
 static void size_told(qn_call *call, int parameter, const char *what, qn_num n) {

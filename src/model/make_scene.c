@@ -50,7 +50,7 @@ static int color(qn_call *call, int parameter, double rgba[4]) {
     return 0;
   }
   for (size_t i = 0; i < count; i++) {
-    rgba[i] = qn_num_to_double(n[i]);
+    rgba[i] = qn_arg_finite(call, parameter, n[i]);
   }
   return !(rgba[0] == -1 && rgba[1] == -1 && rgba[2] == -1); /* OpenSCAD's "unset" */
 }
@@ -126,7 +126,7 @@ static int point(qn_call *call, int parameter, double out[3]) {
     return 0;
   }
   for (int i = 0; i < 3; i++) {
-    out[i] = qn_num_to_double(n[i]);
+    out[i] = qn_arg_finite(call, parameter, n[i]);
   }
   return 1;
 }

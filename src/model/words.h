@@ -60,6 +60,8 @@ int qn_arg_truth(qn_call *call, int parameter);
 size_t qn_arg_vector(qn_call *call, int parameter, size_t least, size_t most, int scalar, qn_num *out);
 const char *qn_arg_string(qn_call *call, int parameter, size_t *length);
 double qn_arg_double(qn_call *call, int parameter, double fallback);
+/* A number of an argument as a double, for pictures; told where none is so large, and 0. */
+double qn_arg_finite(qn_call *call, int parameter, qn_num n);
 /* Tells about an argument: its place, or the word's where it was not given. */
 void qn_arg_tell(qn_call *call, qn_code code, int parameter, const char *reason, const char *way_out, const char *problem, ...)
   QN_PRINTF(6, 7);

@@ -8,3 +8,5 @@ camera(eye = [1, 1, 1], projection = "fish");
 light(direction = [0, 0, 0]);
 material(ambient = -1) cube(1);
 light(at = [1 / 0, 0, 0]);
+color([1, 1e400, 0]) cube(1);
+background([0, -1e999, 0]);
