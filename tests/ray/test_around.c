@@ -258,6 +258,21 @@ static void bent_alike(void **state) {
   expect_cells(2, other, ORIGIN, 1, "-- +- ++");
 }
 
+/* Surfaces that touch along a line, to second order, and bend away from it: y = xz + 2z^2 and y = xw - 2w^2, w = z + 3y/2, cross again at z = 3x^2/8 or so;
+   without the shear they do not. The cone z^2 = xy cuts the saddle y = xz at z = x^2. */
+static void cusps(void **state) {
+  (void)state;
+  const surface cross[3] = {{{0, 0, -2, 0, -1, 0, 0, 1}}, {{0, -9, -4, 3, 2, -12, 0, -2}}, {{[6] = 1}}};
+  expect_cells(2, cross, ORIGIN, 1, "-- -+ +- ++");
+  expect_cells(3, cross, ORIGIN, 1, "--- --+ -+- -++ +-- +-+ ++- +++");
+  const surface touch[2] = {{{0, 0, -2, 0, -1, 0, 0, 1}}, {{0, 0, -2, 0, 1, 0, 0, -1}}};
+  expect_cells(2, touch, ORIGIN, 1, "-- -+ +-");
+  const surface straight[2] = {{{0, 0, -2, 0, -1, 0, 0, 1}}, {{0, 1, -2, 0, 1, 0, 0, -1}}}; /* and y^2 more: x^2 z^2 there, less than 4z^2 */
+  expect_cells(2, straight, ORIGIN, 1, "-- -+ +-");
+  const surface cone[2] = {{{0, 0, 0, 0, -1, 0, 0, 1}}, {{0, 0, 1, -1}}};
+  expect_cells(2, cone, ORIGIN, 1, "-- -+ +- ++");
+}
+
 /* Two classes of two at a crossing: their stacks combine freely. x-y: planes x, y; cylinders that touch them. */
 static void stacks_that_cross(void **state) {
   (void)state;
@@ -613,7 +628,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(wall), cmocka_unit_test(corners), cmocka_unit_test(planes_through_a_line), cmocka_unit_test(spheres_that_touch),
     cmocka_unit_test(plane_that_touches), cmocka_unit_test(sphere_on_an_edge), cmocka_unit_test(fans_about_a_circle), cmocka_unit_test(apexes),
-    cmocka_unit_test(steinmetz), cmocka_unit_test(bent_alike), cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(many_planes),
+    cmocka_unit_test(steinmetz), cmocka_unit_test(bent_alike), cmocka_unit_test(cusps),
+    cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(many_planes),
     cmocka_unit_test(fans), cmocka_unit_test(curved_fans), cmocka_unit_test(orders),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
