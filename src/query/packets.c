@@ -57,17 +57,14 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
     const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
     counts->rays += lanes - unsure;
     counts->exact_rays += unsure;
+    /* Rays that go each by itself are won or lost one by one, others together, as one. */
     const int each = packet->few == QN_EACH_LANE;
-    for (unsigned i = each ? lanes - (unsigned)wide.lost : 0; i > 0; i--) {
+    const unsigned asked = each ? lanes : 1, lost = each ? (unsigned)wide.lost : hits->unsure == packet->live && wide.leaves > wide.budget; /* or nearly so */
+    for (unsigned i = lost; i < asked; i++) {
       patience_won(&work->patience);
     }
-    for (unsigned i = (unsigned)wide.lost; QN_UNLIKELY(i > 0); i--) {
+    for (unsigned i = 0; QN_UNLIKELY(i < lost); i++) {
       patience_lost(&work->patience);
-    }
-    if (QN_UNLIKELY(!each && hits->unsure == packet->live && wide.leaves > wide.budget)) { /* or nearly so */
-      patience_lost(&work->patience);
-    } else if (!each) {
-      patience_won(&work->patience);
     }
   }
 }

@@ -353,7 +353,7 @@ static void give_open(circle *c, const qn_int v[3], size_t first, size_t end) {
 /* In a direction v of T in which D has a double root, the order is kept beside v but for what bends away from it: on u = e v + e^2 z B + s G, B in T, the
    difference of two members is, when v runs in their surfaces (k = 0),
        e^4 (z^2 BᵗDB - 2 z (vᵗHB / g.G) vᵗDG) + O(e^5),    s = -e^3 z vᵗHB / g.G + O(e^4),
-   which has both signs unless vᵗHB or vᵗDG is 0. A cone that touches T along v has its H for D. */
+   which has both signs unless vᵗHB or vᵗDG is 0. */
 static int bends(const circle *c, const qn_int v[3], const qn_xint h[6], const qn_xint d[6]) {
   qn_ctx *ctx = c->cells->ctx;
   return qn_x_sign(qn_form_x(ctx, h, v, v)) == 0 && qn_x_sign(qn_form_x(ctx, d, v, c->normal)) != 0 &&
@@ -361,26 +361,18 @@ static int bends(const circle *c, const qn_int v[3], const qn_xint h[6], const q
          qn_x_sign(qn_form_x(ctx, d, v, v)) == 0 && qn_x_sign(qn_form_x(ctx, d, v, c->along)) == 0 && qn_x_sign(qn_form_x(ctx, d, v, c->across)) == 0;
 }
 
-/* Whether something bends so about a direction of change. */
+/* Whether two members part so about a direction of change. */
 static int any_bends(const circle *c, const qn_int v[3], size_t first, size_t end) {
   for (size_t i = first; i < end; i++) {
     const turning *turn = &c->turns[c->marks[i].tag];
-    if (!turn->twice || turn->linear) {
+    if (turn->kind != TIE || !turn->twice || turn->linear) { /* a cone that touches T along v: qn_cells_direction has it */
       continue;
     }
-    if (turn->kind == TIE) {
-      qn_xint d[6];
-      member_difference(c->cells->ctx, &c->members[turn->a], &c->members[turn->b], d);
-      const int flat = qn_x_sign(qn_form_x(c->cells->ctx, d, c->along, c->along)) == 0 && qn_x_sign(qn_form_x(c->cells->ctx, d, c->across, c->across)) == 0;
-      if (!flat && bends(c, v, c->members[turn->a].h, d)) { /* a D that is 0 on T changes its sign with s: the two sides show that */
-        return 1;
-      }
-    } else {
-      for (size_t k = 0; k < c->count; k++) {
-        if (!c->members[k].flat && bends(c, v, c->members[k].h, c->cells->germs[turn->a].h)) {
-          return 1;
-        }
-      }
+    qn_xint d[6];
+    member_difference(c->cells->ctx, &c->members[turn->a], &c->members[turn->b], d);
+    const int flat = qn_x_sign(qn_form_x(c->cells->ctx, d, c->along, c->along)) == 0 && qn_x_sign(qn_form_x(c->cells->ctx, d, c->across, c->across)) == 0;
+    if (!flat && bends(c, v, c->members[turn->a].h, d)) { /* a D that is 0 on T changes its sign with s: the two sides show that */
+      return 1;
     }
   }
   return 0;

@@ -4,6 +4,7 @@
 #define QN_TESTS_PACKET_CASES_H
 
 #include "random_solid.h"
+#include "wide/packet.h"
 
 #include <math.h>
 
@@ -332,6 +333,31 @@ static inline void fill_bundle(dice *d, int kind, const frame *f, quoin_ray rays
       rays[i].d[j] *= lift;
     }
   }
+}
+
+/* Whether it may be asked. */
+static inline int is_line(const quoin_ray *r) {
+  double finite = 0, size = 0;
+  for (int i = 0; i < 3; i++) {
+    finite += 0 * r->o[i] + 0 * r->d[i];
+    size += r->d[i] != 0;
+  }
+  return finite == 0 && size > 0 && r->from <= r->to;
+}
+
+/* The bodies that this machine runs; how many there are. */
+static inline size_t find_bodies(const qn_wide *bodies[3]) {
+  static const char *const names[3] = {"sse2", "avx2", "avx512"};
+  size_t count = 0;
+  for (size_t i = 0; i < 3; i++) {
+    setenv("QUOIN_ISA", names[i], 1);
+    const qn_wide *w = qn_wide_pick();
+    if (strcmp(w->name, names[i]) == 0) {
+      bodies[count++] = w;
+    }
+  }
+  unsetenv("QUOIN_ISA");
+  return count;
 }
 
 #endif

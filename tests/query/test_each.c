@@ -8,27 +8,6 @@
 static const qn_wide *bodies[3];
 static size_t body_count;
 
-static void find_bodies(void) {
-  static const char *const names[3] = {"sse2", "avx2", "avx512"};
-  for (size_t i = 0; i < 3; i++) {
-    setenv("QUOIN_ISA", names[i], 1);
-    const qn_wide *w = qn_wide_pick();
-    if (strcmp(w->name, names[i]) == 0) {
-      bodies[body_count++] = w;
-    }
-  }
-  unsetenv("QUOIN_ISA");
-}
-
-static int is_line(const quoin_ray *r) {
-  double finite = 0, size = 0;
-  for (int i = 0; i < 3; i++) {
-    finite += 0 * r->o[i] + 0 * r->d[i];
-    size += r->d[i] != 0;
-  }
-  return finite == 0 && size > 0 && r->from <= r->to;
-}
-
 static void put_ray(qn_packet *p, unsigned lane, const quoin_ray *r, uint32_t on) {
   for (int i = 0; i < 3; i++) {
     p->o[i][lane] = r->o[i], p->d[i][lane] = r->d[i];
@@ -163,7 +142,7 @@ static void each_is_one(void **state) {
 
 int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : model_count;
-  find_bodies();
+  body_count = find_bodies(bodies);
   const struct CMUnitTest tests[] = {cmocka_unit_test(each_is_one)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

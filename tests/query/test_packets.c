@@ -50,18 +50,6 @@ static size_t alone_of_tied;
 static size_t failures;
 enum { failures_shown = 3 };
 
-static void find_bodies(void) {
-  static const char *const names[3] = {"sse2", "avx2", "avx512"};
-  for (size_t i = 0; i < 3; i++) {
-    setenv("QUOIN_ISA", names[i], 1);
-    const qn_wide *w = qn_wide_pick();
-    if (strcmp(w->name, names[i]) == 0) {
-      bodies[body_count++] = w;
-    }
-  }
-  unsetenv("QUOIN_ISA");
-}
-
 typedef struct kind { int model, bundle, frame; } kind;
 
 static void blame(const char *what, const char *text, const char *body, kind k, const quoin_ray *ray, const truth *want, const qn_packet_hits *hits, unsigned lane) {
@@ -151,15 +139,6 @@ static void fill_packet(qn_packet *p, const quoin_ray *rays, unsigned lanes, con
     }
     p->from[lane] = r->from, p->to[lane] = r->to, p->on[lane] = QUOIN_NO_SURFACE;
   }
-}
-
-static int is_line(const quoin_ray *r) {
-  double finite = 0, size = 0;
-  for (int i = 0; i < 3; i++) {
-    finite += 0 * r->o[i] + 0 * r->d[i];
-    size += r->d[i] != 0;
-  }
-  return finite == 0 && size > 0 && r->from <= r->to;
 }
 
 /* The same rays as spots, and whether they are blocked: as an array and one by one. */
@@ -590,7 +569,7 @@ static void skipped_packets(void **state) {
 int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : (size_t)share_from(200, (int)model_count);
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
-  find_bodies();
+  body_count = find_bodies(bodies);
   const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(many_blocked), cmocka_unit_test(skipped_packets),
                                      cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);

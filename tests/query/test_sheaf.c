@@ -89,15 +89,6 @@ static void blame(const char *text, const char *isa, int model, int bundle, cons
   }
 }
 
-static int is_line(const quoin_ray *r) {
-  double finite = 0, size = 0;
-  for (int i = 0; i < 3; i++) {
-    finite += 0 * r->o[i] + 0 * r->d[i];
-    size += r->d[i] != 0;
-  }
-  return finite == 0 && size > 0 && r->from <= r->to;
-}
-
 typedef struct asked {
   const char *text, *isa;
   int model, bundle;

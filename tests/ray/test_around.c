@@ -269,8 +269,9 @@ static void cusps(void **state) {
   expect_cells(2, touch, ORIGIN, 1, "-- -+ +-");
   const surface straight[2] = {{{0, 0, -2, 0, -1, 0, 0, 1}}, {{0, 1, -2, 0, 1, 0, 0, -1}}}; /* and y^2 more: x^2 z^2 there, less than 4z^2 */
   expect_cells(2, straight, ORIGIN, 1, "-- -+ +-");
-  const surface cone[2] = {{{0, 0, 0, 0, -1, 0, 0, 1}}, {{0, 0, 1, -1}}};
+  const surface cone[3] = {{{0, 0, 0, 0, -1, 0, 0, 1}}, {{0, 0, 1, -1}}, {{[6] = 1}}};
   expect_cells(2, cone, ORIGIN, 1, "-- -+ +- ++");
+  expect_cells(3, cone, ORIGIN, 1, "--- --+ -+- -++ +-- +-+ ++- +++"); /* --+ and +-- are between z = 0 and z = x^2 alone */
 }
 
 /* Two classes of two at a crossing: their stacks combine freely. x-y: planes x, y; cylinders that touch them. */
