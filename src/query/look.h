@@ -68,6 +68,8 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits);
 /* Of `lanes`, found and tied ones of a packet that has been through its body: those whose surface the packet names as the woven path would, since no other passes at the
    hit. Which of its parts is met is still open (alone.c). */
 uint64_t qn_alone_lanes(const quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes);
+/* Those of them whose parts are certain too; hits->leaf of these becomes the part that the woven path names. eval: at rest, and left so. */
+uint64_t qn_name_parts(const quoin_scene *scene, qn_eval *eval, const qn_packet *packet, qn_packet_hits *hits, uint64_t lanes);
 
 /* The gradient of a half-space's form at pivot + y, in doubles (hit.c). */
 void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]);

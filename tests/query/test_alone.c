@@ -1,5 +1,5 @@
 /* Lanes of a tile that end on one plane, and other surfaces that pass through their places or between them (query/alone.c): boxes, balls and cylinders with whole
-   numbers, so that arithmetic on integers knows which lanes have the plane for themselves. */
+   numbers, so that arithmetic on integers knows which lanes have the plane for themselves. And whose the plane is there, worked out by hand. */
 #include "ask.h"
 #include "share.h"
 
@@ -123,7 +123,46 @@ static void lattice(void **state) {
   assert_true(kept > free_lanes - free_lanes / 10); /* else nothing is gained */
 }
 
+/* Rays along x through the middle of slabs, from `from` on: the first boundary is at `at`, where several slabs have a face. Slabs change in the order of the text, and the one at
+   which the solid's value last changes is named. */
+#define SLAB(from, to) "translate([" #from ",-9,-9]) cube([" #to "-(" #from "),18,18]);"
+static const struct { const char *text; double from, at; uint32_t part; } PARTS[] = {
+  {"union(){" SLAB(0, 9) SLAB(0, 7) "}", -5, 0, 0},                                         /* in with the first */
+  {"union(){" SLAB(0, 9) SLAB(3, 9) "}", 5, 9, 1},                                          /* out with the last */
+  {"intersection(){" SLAB(0, 9) SLAB(0, 7) "}", -5, 0, 1},
+  {"intersection(){" SLAB(0, 9) SLAB(3, 9) "}", 5, 9, 0},
+  {"union(){difference(){" SLAB(0, 9) SLAB(0, 3) "}" SLAB(0, 7) "}", -5, 0, 2},             /* in, out again, in */
+  {"union(){intersection(){" SLAB(0, 9) SLAB(-2, 9) "}" SLAB(0, 7) "}", -1, 0, 0},          /* the second holds the place */
+  {"intersection(){union(){" SLAB(0, 9) SLAB(-2, 9) "}" SLAB(0, 7) SLAB(-3, 8) "}", -1, 0, 2},
+  {"difference(){" SLAB(0, 9) SLAB(1, 4) SLAB(2, 4) "}", 3, 4, 2},                          /* in where the last of two is left */
+  {"difference(){union(){" SLAB(0, 4) SLAB(4, 8) "}" SLAB(4, 6) "}", 2, 4, 2},              /* out, in, out */
+  {"difference(){union(){" SLAB(4, 8) SLAB(0, 4) "}" SLAB(4, 6) "}", 2, 4, 2},              /* no change, out, no change: the third makes it end */
+};
+
+static void parts(void **state) {
+  (void)state;
+  for (size_t n = 0; n < sizeof PARTS / sizeof *PARTS; n++) {
+    ask a;
+    ask_open(&a, PARTS[n].text);
+    static quoin_ray rays[QN_LANES];
+    static quoin_hit hits[QN_LANES];
+    for (unsigned k = 0; k < QN_LANES; k++) {
+      rays[k] = (quoin_ray){{0, 0.125 * (k & 7), 0.125 * (k >> 3)}, {1, 0, 0}, PARTS[n].from, HUGE_VAL};
+    }
+    assert_int_equal(quoin_first_hits(a.scene, a.work, QN_LANES, rays, hits), QUOIN_OK);
+    for (unsigned k = 0; k < QN_LANES; k++) {
+      quoin_hit one;
+      assert_int_equal(quoin_first_hit(a.scene, a.work, &rays[k], &one), QUOIN_OK);
+      assert_true(hits[k].found && one.found && hits[k].t == PARTS[n].at && one.t == PARTS[n].at);
+      if (hits[k].part != PARTS[n].part || one.part != PARTS[n].part) {
+        fail_msg("parts %u and %u, not %u, in %s", hits[k].part, one.part, PARTS[n].part, PARTS[n].text);
+      }
+    }
+    ask_close(&a);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(lattice)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(lattice), cmocka_unit_test(parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

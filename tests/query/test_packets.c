@@ -46,7 +46,7 @@ static shares by_model[MODELS], by_bundle[BUNDLES], by_frame[FRAMES], by_isa[3],
 static const qn_wide *bodies[3];
 static size_t body_count;
 static size_t by_block[2];
-static size_t alone_of_tied;
+static size_t alone_of_tied, named_of_tied, renamed; /* renamed: not as the packet has it */
 static size_t failures;
 enum { failures_shown = 3 };
 
@@ -96,6 +96,17 @@ static void judge(const ask *a, const char *text, kind k, size_t body, qn_packet
   tally(&table[k.model][k.bundle], &hits, live);
   const uint64_t alone = qn_alone_lanes(a->scene, p, &hits, hits.tied);
   alone_of_tied += (uint64_t)__builtin_popcountll(alone);
+  qn_packet_hits by_part = hits;
+  const uint64_t named = qn_name_parts(a->scene, qn_scratch_eval(a->work->scratch), p, &by_part, hits.tied);
+  named_of_tied += (uint64_t)__builtin_popcountll(named);
+  for (uint64_t m = named; m; m &= m - 1) {
+    const unsigned lane = qn_trailing_zeros(m);
+    const truth *w = &want[lane_of[lane]];
+    renamed += hits.leaf[lane] != by_part.leaf[lane];
+    if (w->status == QUOIN_OK && by_part.leaf[lane] != w->part) {
+      blame("part of several", text, bodies[body]->name, k, &rays[lane_of[lane]], w, &by_part, lane);
+    }
+  }
   for (uint64_t m = live & ~hits.unsure; m; m &= m - 1) {
     unsigned lane = qn_trailing_zeros(m);
     const truth *w = &want[lane_of[lane]];
@@ -393,7 +404,7 @@ static void random_models(void **state) {
     one_grid(&d, &a, text, k, &f);
     ask_close(&a);
   }
-  print_message("tied lanes whose surface is known: %zu\n", alone_of_tied);
+  print_message("tied lanes whose surface is known: %zu, whose part is: %zu, of these another than the packet has: %zu\n", alone_of_tied, named_of_tied, renamed);
   print_message("rays asked whether they are blocked: %zu are, %zu not\n", by_block[1], by_block[0]);
   print_census("model", MODEL_NAMES, by_model, MODELS);
   print_census("rays", BUNDLE_NAMES, by_bundle, BUNDLES);
@@ -413,7 +424,7 @@ static void random_models(void **state) {
     }
   }
   assert_int_equal(failures, 0);
-  assert_true(alone_of_tied > 0);
+  assert_true(alone_of_tied > 0 && named_of_tied > alone_of_tied - alone_of_tied / 10 && renamed > 0);
   for (int i = 0; i < MODELS; i++) {
     assert_true(by_model[i].found > 0 && (by_model[i].leaving > 0 || !share_whole()));
   }
