@@ -138,7 +138,7 @@ static int entered_side(const patch *p, const qn_packet_hits *hits, unsigned lan
 }
 
 /* Names the parts of lanes that are alone; those of them for which there is one. */
-static uint64_t name_parts(const patch *p, qn_packet_hits *hits, uint64_t lanes) {
+static uint64_t name_parts(const patch *p, const qn_packet_hits *hits, uint64_t lanes, uint32_t leaf[QN_LANES]) {
   uint32_t part[4];
   unsigned known = 0;
   uint64_t named = 0;
@@ -153,7 +153,7 @@ static uint64_t name_parts(const patch *p, qn_packet_hits *hits, uint64_t lanes)
       known |= 1u << way;
     }
     if (part[way] != NO_PART) {
-      hits->leaf[lane] = part[way];
+      leaf[lane] = part[way];
       named |= (uint64_t)1 << lane;
     }
   }
@@ -213,15 +213,15 @@ static int some_are_alone(patch *p, const qn_packet *packet, const qn_packet_hit
   return ask(p, min, max);
 }
 
-/* Lanes that are alone, and with `named`, whose parts have been named there. */
-static uint64_t alone_in_parts(patch *p, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, qn_packet_hits *named) {
+/* Lanes that are alone; with an eval, those whose parts are named in leaf. */
+static uint64_t alone_in_parts(patch *p, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, uint32_t *leaf) {
   uint64_t alone = 0;
   unsigned size = QN_LANES;
   for (unsigned at = 0; at < QN_LANES;) {
     const uint64_t some = size == QN_LANES ? lanes : lanes & ((((uint64_t)1 << size) - 1) << at);
     const int several = (some & (some - 1)) != 0;
     if (some && (several ? some_are_alone(p, packet, hits, some) : one_is_alone(p, packet, hits, qn_trailing_zeros(some)))) {
-      alone |= named ? name_parts(p, named, some) : some;
+      alone |= p->eval ? name_parts(p, hits, some, leaf) : some;
     } else if (several) {
       size /= 4;
       continue;
@@ -240,5 +240,5 @@ uint64_t qn_alone_lanes(const quoin_scene *scene, const qn_packet *packet, const
 
 uint64_t qn_name_parts(const quoin_scene *scene, qn_eval *eval, const qn_packet *packet, qn_packet_hits *hits, uint64_t lanes) {
   patch p = {.scene = scene, .eval = eval};
-  return alone_in_parts(&p, packet, hits, lanes, hits);
+  return alone_in_parts(&p, packet, hits, lanes, hits->leaf);
 }
