@@ -66,7 +66,8 @@ static void see_leaf(void *user, uint32_t number) {
   patch *p = user;
   const qn_leaf *leaf = &p->scene->leaves[number];
   const qn_frame frame = qn_frame_of(p->c, p->weight, leaf->pivot);
-  int open = 0, side = 0; /* open: another surface may pass; side: of the surface's own half-space */
+  int open = 0;    /* another surface may pass */
+  int8_t side = 0; /* of the half-space on the surface; 0: the leaf has none */
   for (uint32_t h = leaf->half0; h < leaf->half0 + leaf->halves && p->alone; h++) {
     const qn_half *half = &p->scene->halves[h];
     if (half->surface == p->surface) {
@@ -93,7 +94,7 @@ static void see_leaf(void *user, uint32_t number) {
     for (; k > 0 && p->changing[k - 1].leaf > number; k--) {
       p->changing[k] = p->changing[k - 1];
     }
-    p->changing[k] = (changing){number, (int8_t)side};
+    p->changing[k] = (changing){number, side};
   }
 }
 
