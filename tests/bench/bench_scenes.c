@@ -189,11 +189,25 @@ static int judge(bench *b, const path *p, reference *ref, const reference *hits,
 
 /* --- timing ---------------------------------------------------------------------------------------------------------- */
 
+/* All paths take turns within a round, each for a part of its time: the speed of a machine that others use changes within a second, and what is compared shall see the same of it. */
+enum { TURNS = 10, MOST_ROUNDS = 64 };
+
+/* A path and what became of it. */
+typedef struct timed {
+  const path *p;
+  verdict v;
+  size_t *order;     /* of blocks; null: it is not timed, for a wrong answer */
+  size_t blocks, at; /* at: the next of them */
+  double rays[MOST_ROUNDS], seconds[MOST_ROUNDS];
+  quoin_stats stats;
+#ifdef BENCH_CLOCKED
+  exact_clock clock;
+#endif
+} timed;
+
 typedef struct run {
   const bench *b;
-  const path *p;
-  const size_t *order;
-  size_t blocks;
+  const timed *t;
   double until;
   atomic_size_t next;
   atomic_size_t done;
@@ -205,43 +219,10 @@ static void *run_blocks(void *user) {
   size_t rays = 0;
   while (bench_now() < r->run->until) {
     size_t at = atomic_fetch_add(&r->run->next, 1);
-    rays += r->run->p->block(&r->run->b->job, r->lane, r->run->order[at % r->run->blocks]);
+    rays += r->run->t->p->block(&r->run->b->job, r->lane, r->run->t->order[at % r->run->t->blocks]);
   }
   atomic_fetch_add(&r->run->done, rays);
   return NULL;
-}
-
-/* Rays a second; 0 on failure. */
-static double measure(const bench *b, const path *p, path_lane **lanes, double *rays, double *seconds) {
-  size_t blocks = path_blocks(p, &b->job);
-  size_t *order = shuffled(blocks, 1);
-  if (!order) {
-    return 0;
-  }
-  run shared = {.b = b, .p = p, .order = order, .blocks = blocks};
-  pthread_t threads[256];
-  runner runners[256];
-  double begin = bench_now();
-  shared.until = begin + b->opt.seconds;
-  for (unsigned i = 0; i < b->opt.threads; i++) {
-    runners[i] = (runner){&shared, lanes[i]};
-    if (i && pthread_create(&threads[i], NULL, run_blocks, &runners[i]) != 0) {
-      abort();
-    }
-  }
-  run_blocks(&runners[0]);
-  for (unsigned i = 1; i < b->opt.threads; i++) {
-    pthread_join(threads[i], NULL);
-  }
-  *seconds = bench_now() - begin;
-  *rays = (double)shared.done;
-  free(order);
-  return *rays / *seconds;
-}
-
-static int by_size(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static quoin_stats stats_of(path_lane **lanes, unsigned n) {
@@ -260,37 +241,78 @@ static quoin_stats stats_of(path_lane **lanes, unsigned n) {
   return sum;
 }
 
-static int right_so_far(const verdict *v) {
-  return v->wrong == 0 && v->oracle_wrong == 0;
+#define EACH_COUNT(DO) DO(nodes) DO(leaves) DO(filter_sure) DO(exact_signs) DO(exact_orders) DO(exact_rays) DO(exact_roundings)
+
+/* One turn of a path. */
+static void take_turn(const bench *b, timed *t, path_lane **lanes, unsigned round, double seconds) {
+  run shared = {.b = b, .t = t, .next = t->at};
+  pthread_t threads[256];
+  runner runners[256];
+  const quoin_stats before = stats_of(lanes, b->opt.threads);
+#ifdef BENCH_CLOCKED
+  const exact_clock was = bench_exact_clock;
+#endif
+  const double begin = bench_now();
+  shared.until = begin + seconds;
+  for (unsigned i = 0; i < b->opt.threads; i++) {
+    runners[i] = (runner){&shared, lanes[i]};
+    if (i && pthread_create(&threads[i], NULL, run_blocks, &runners[i]) != 0) {
+      abort();
+    }
+  }
+  run_blocks(&runners[0]);
+  for (unsigned i = 1; i < b->opt.threads; i++) {
+    pthread_join(threads[i], NULL);
+  }
+  t->seconds[round] += bench_now() - begin;
+  t->rays[round] += (double)shared.done;
+  t->at = shared.next;
+  const quoin_stats after = stats_of(lanes, b->opt.threads);
+#define ADD(field) t->stats.field += after.field - before.field;
+  EACH_COUNT(ADD)
+#ifdef BENCH_CLOCKED
+  t->clock.exact += bench_exact_clock.exact - was.exact;
+  t->clock.woven += bench_exact_clock.woven - was.woven;
+#endif
 }
 
-static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) {
-  double rates[64], rays = 0, seconds = 0, all_rays = 0;
+static void time_all(const bench *b, size_t n, timed times[], path_lane **lanes) {
 #ifdef BENCH_CLOCKED /* of the one thread; what is made once for each surface is made before */
-  size_t *order = shuffled(path_blocks(p, &b->job), 1); /* as in measure */
-  double begin = bench_now();
-  for (size_t i = 0; order && right_so_far(v) && i < path_blocks(p, &b->job) && bench_now() - begin < 10 * b->opt.seconds; i++) {
-    p->block(&b->job, lanes[0], order[i]);
-  }
-  free(order);
-  exact_clock was = bench_exact_clock;
-  double spent = 0;
-#endif
-  int right = right_so_far(v);
-  quoin_stats before = stats_of(lanes, b->opt.threads), after = before;
-  if (right) {
-    for (unsigned r = 0; r < b->opt.rounds; r++) {
-      rates[r] = measure(b, p, lanes, &rays, &seconds);
-      all_rays += rays;
-#ifdef BENCH_CLOCKED
-      spent += seconds;
-#endif
+  for (size_t i = 0; i < n; i++) {
+    const double begin = bench_now();
+    for (size_t k = 0; times[i].order && k < times[i].blocks && bench_now() - begin < 10 * b->opt.seconds; k++) {
+      times[i].p->block(&b->job, lanes[0], times[i].order[k]);
     }
-    qsort(rates, b->opt.rounds, sizeof *rates, by_size);
-    after = stats_of(lanes, b->opt.threads);
   }
+#endif
+  for (unsigned round = 0; round < b->opt.rounds; round++) {
+    for (unsigned turn = 0; turn < TURNS; turn++) {
+      for (size_t i = 0; i < n; i++) {
+        if (times[i].order && times[i].seconds[round] <= b->opt.seconds * turn / TURNS) { /* else one block took several turns */
+          take_turn(b, &times[i], lanes, round, b->opt.seconds / TURNS);
+        }
+      }
+    }
+  }
+}
+
+static int by_size(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static int report(const bench *b, const timed *t) {
+  const path *p = t->p;
+  const verdict *v = &t->v;
+  const int right = t->order != NULL;
+  double rates[MOST_ROUNDS] = {0}, all_rays = 0;
+  for (unsigned r = 0; right && r < b->opt.rounds; r++) {
+    rates[r] = t->rays[r] / t->seconds[r];
+    all_rays += t->rays[r];
+  }
+  qsort(rates, b->opt.rounds, sizeof *rates, by_size);
   double rate = right ? rates[b->opt.rounds / 2] / 1e6 : NAN, each = all_rays > 0 ? 1 / all_rays : 0;
-#define PER(field) ((double)(after.field - before.field) * each)
+#define PER(field) ((double)t->stats.field * each)
   char judged[64];
   snprintf(judged, sizeof judged, "%zu/%zu", v->wrong + v->oracle_wrong, v->judged + v->oracle_judged);
   if (right) {
@@ -301,7 +323,11 @@ static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) 
            v->wrong, v->judged);
   }
 #ifdef BENCH_CLOCKED
-  double exact = (bench_exact_clock.exact - was.exact) / spent, woven = (bench_exact_clock.woven - was.woven) / spent;
+  double spent = 0;
+  for (unsigned r = 0; r < b->opt.rounds; r++) {
+    spent += t->seconds[r];
+  }
+  const double exact = spent > 0 ? t->clock.exact / spent : NAN, woven = spent > 0 ? t->clock.woven / spent : NAN;
   printf("%-17s %9.4f %% of the time in exact arithmetic, %.4f %% in rays and points answered one by one\n", "", 100 * exact, 100 * woven);
 #endif
   fflush(stdout);
@@ -323,6 +349,10 @@ static int report(bench *b, const path *p, const verdict *v, path_lane **lanes) 
     fclose(f);
   }
   return right;
+}
+
+static int right_so_far(const verdict *v) {
+  return v->wrong == 0 && v->oracle_wrong == 0;
 }
 
 /* --- the program ----------------------------------------------------------------------------------------------------- */
@@ -378,7 +408,7 @@ static int parse(int argc, char **argv, options *opt) {
     else if (strcmp(a, "--name") == 0) { opt->name = v; }
     else { return usage(); }
   }
-  if (!opt->model || !opt->camera || opt->rounds < 1 || opt->rounds > 64 || opt->threads < 1 || opt->threads > 256) {
+  if (!opt->model || !opt->camera || opt->rounds < 1 || opt->rounds > MOST_ROUNDS || opt->threads < 1 || opt->threads > 256) {
     return usage();
   }
   if (!opt->name) {
@@ -483,19 +513,29 @@ int main(int argc, char **argv) {
     return 1;
   }
   static reference references[RAY_KINDS][QUESTIONS]; /* by rays and question */
+  timed *times = calloc(PATH_COUNT, sizeof *times);
+  size_t count = 0;
   for (size_t i = 0; i < PATH_COUNT; i++) {
-    verdict v = {0};
     if (!wanted(&b.opt, PATHS[i].name) || path_blocks(&PATHS[i], &b.job) == 0) {
       continue;
     }
     reference *of_rays = references[PATHS[i].rays];
     const reference *hits = (PATHS[i].question == ASK_SPOTS || PATHS[i].question == ASK_BLOCKED) && of_rays[ASK_HITS].answers ? &of_rays[ASK_HITS] : NULL;
-    if (b.opt.judge && !judge(&b, &PATHS[i], &of_rays[PATHS[i].question], hits, lanes[0], &v)) {
+    timed *t = times ? &times[count++] : NULL;
+    if (!t || (b.opt.judge && !judge(&b, &PATHS[i], &of_rays[PATHS[i].question], hits, lanes[0], &t->v))) {
       fputs("out of memory\n", stderr);
       return 1;
     }
-    right &= report(&b, &PATHS[i], &v, lanes);
+    t->p = &PATHS[i];
+    t->blocks = path_blocks(&PATHS[i], &b.job);
+    t->order = right_so_far(&t->v) ? shuffled(t->blocks, 1) : NULL;
   }
+  time_all(&b, count, times, lanes);
+  for (size_t i = 0; i < count; i++) {
+    right &= report(&b, &times[i]);
+    free(times[i].order);
+  }
+  free(times);
   for (unsigned i = 0; i < b.opt.threads; i++) {
     if (lanes[i]->status != QUOIN_OK) {
       fprintf(stderr, "a call failed: %s\n", quoin_status_text(lanes[i]->status));

@@ -106,6 +106,7 @@ def merge(rounds):
             r[field] = max(int(number(x[field]) if x[field] else 0) for x in rows)
         rates = [number(x['mrays']) for x in rows]
         r['mrays'] = '%.5g' % (statistics.median(rates) if all(x == x for x in rates) else float('nan'))
+        r['turns'] = ' '.join('%.5g' % x for x in rates)
         for field in ('compile_s', 'read_s'):
             r[field] = min((x[field] for x in rows if x[field]), key=number, default='')
         out.append(r)
@@ -115,8 +116,8 @@ def merge(rounds):
 def scenes_part(b):
     a = b.args
     names = a.scene or (QUICK_SCENES if a.quick else SCENES)
-    rounds = a.rounds or (1 if a.quick else 3)
-    seconds = 0.12 if a.quick else 0.3
+    rounds = a.rounds or (1 if a.quick else 5)
+    seconds = 0.12 if a.quick else 0.2
     size = a.size or (512 if a.quick else 1024)
     everything, exact = [], []
     unchecked = b.program('bench_unchecked')
@@ -146,7 +147,7 @@ def scenes_part(b):
         merged = merge(turns)
         everything += merged
         print_ratios(name, merged)
-        b.write('scenes', SCENE_FIELDS, everything)
+        b.write('scenes', SCENE_FIELDS + ['turns'], everything)
         if b.program('bench_exact') and not a.path:
             exact += b.scene_rows([b.program('bench_exact'), base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds / 2, '--size', size,
                                    '--oracle', 0, '--judge', 0, '--build-threads', 0, '--paths', ','.join(EXACT_PATHS)], EXACT_FIELDS)
