@@ -357,7 +357,7 @@ static void test_range(void **state) {
       o[j] = one_in(4) ? ldexp(part(), -(int)(next() % 1060)) : ldexp(part(), f);
       d[j] = one_in(4) ? ldexp(part(), (int)(next() % 2000) - 1000) : ldexp(one_in(2) ? -o[j] / ldexp(1, f) + part() : part(), e);
     }
-    if (d[0] != 0 || d[1] != 0 || d[2] != 0) {
+    if ((d[0] != 0 || d[1] != 0 || d[2] != 0) && isfinite(d[0]) && isfinite(d[1]) && isfinite(d[2])) {
       add(&st, &b, &c, surface, o, d, 45);
     }
   }

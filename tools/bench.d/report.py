@@ -142,7 +142,7 @@ def scenes(results, plots, page):
     at = {(r['scene'], r['path']): r for r in rows}
     paths = [p for p in unique(rows, 'path')]
     peers = [p for p in paths if p.startswith('embree') or p == 'povray']
-    ours = [p for p in paths if p not in peers and not p.startswith('unchecked')]
+    ours = [p for p in paths if p not in peers and not p.startswith(('checked-', 'unchecked-'))]
     text = '## Scenes\n\nMillion rays (or points) a second on one core, from camera to hit record, median of the rounds; the programs took turns, and within a program the paths, ten each in a round. Every ratio of two of them is the median of the rounds\' ratios. '
     text += 'The paths: `single` one call a ray, `rows` and `tiles` arrays in blocks of 64 x 64 pixels, `grid` the grid call (`grid-t`: with t rounded correctly), '
     text += '`intervals` all stretches of a ray, arrays of tiles (`grid-intervals` by the grid call), `intervals-exact` the same with the filter off, `shadow` from what the camera sees to a light, `random` incoherent rays. '
@@ -210,7 +210,7 @@ def times(mine, theirs):
 
 def certainty(at, scene, path):
     """How many times the unchecked path's time the path takes."""
-    return times(at.get((scene, 'unchecked-' + path)), at.get((scene, path)))
+    return times(at.get((scene, 'unchecked-' + path)), at.get((scene, 'checked-' + path)) or at.get((scene, path)))
 
 
 def pictures(results, plots, page):

@@ -134,10 +134,11 @@ def scenes_part(b):
             if a.path or a.quick:
                 command += ['--paths', ','.join(a.path or QUICK_PATHS)]
             rows += b.scene_rows(command)
-            if unchecked and not a.path: # its answers are not judged: it only tells what certainty costs
-                theirs = b.scene_rows([unchecked, base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
-                                       '--oracle', 0, '--judge', 0, '--build-threads', 0, '--paths', ','.join(UNCHECKED_PATHS)])
-                rows += [dict(r, path='unchecked-' + r['path']) for r in theirs]
+            if unchecked and not a.path: # its answers are not judged: it only tells what certainty costs, beside the library asked in the same way
+                for program, kind in ((b.program('bench_scenes'), 'checked-'), (unchecked, 'unchecked-')):
+                    theirs = b.scene_rows([program, base + '.csg', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
+                                           '--oracle', 0, '--judge', 0, '--build-threads', 0, '--paths', ','.join(UNCHECKED_PATHS)])
+                    rows += [dict(r, path=kind + r['path']) for r in theirs]
             if embree and name in SPHERES:
                 rows += b.scene_rows([embree, base + '.flat', base + '.camera', '--name', name, '--rounds', 1, '--seconds', seconds, '--size', size,
                                       '--oracle', (40 if a.quick else 200) if r == 0 else 0])
