@@ -132,9 +132,10 @@ static size_t hits_of(const path_job *job, path_lane *lane, size_t n) {
   return n;
 }
 
+/* Hits are kept where an array's are: a ray alone would otherwise be spared the writing. */
 static size_t single_hits_of(const path_job *job, path_lane *lane, size_t n) {
   for (size_t k = 0; k < n; k++) {
-    fail(lane, quoin_first_hit(job->scene, lane->work, &lane->asked[k], &lane->hits[lane->answers ? k : 0]));
+    fail(lane, quoin_first_hit(job->scene, lane->work, &lane->asked[k], &lane->hits[lane->answers ? k : k % CALL]));
   }
   keep_hits(lane, n);
   return n;
