@@ -8,7 +8,9 @@
       until a point inside is found, or the tangent's lower bound is positive, or the bracket is narrow.
    2. Else: the places where the line meets a coordinate plane divide it into pieces on each of which |X_i| is linear. A piece
       [c, d] is settled when G over the corners of its box (G grows with each |X_i|) is above 1 or below it, when its slope
-      is of one sign, or when the lines from its ends with the steepest slopes do not reach 1; else it is halved, down to QN_SUPER_NARROW of the solid's size. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X|
+      is of one sign, or when the lines from its ends with the steepest slopes do not reach 1; else it is halved, down to QN_SUPER_NARROW of the solid's size.
+      A line may lie in the surface (in a flat cap, along a ruling): G is then 1 all along a piece but where it is more, and a piece with MOST_ZEROS places that no precision tells from 1
+      is such a one; other pieces have a few roots at most. Slope: dG = phi_q(Z/rho) (phi_p(Y/X) d|X|
       + phi_p(X/Y) d|Y|) + phi_q(rho/Z) d|Z|, each phi monotone.
    What comes out is a list of places with certain signs in increasing order; two neighbours of different signs bracket a root.
    3. Refinement: Newton from one end, kept in the bracket, halving it when a step does not; then the bracket is closed from
@@ -18,16 +20,23 @@
 #include "shape/prim.h"
 #include "shape/super_line.h"
 
-enum { MOST_NODES = 40000, STACK = 256, MOST_SIGNS = 256 };
+#include <string.h>
+
+enum { MOST_NODES = 40000, MOST_FINE = 8192, MOST_ZEROS = 64, STACK = 256, MOST_SIGNS = 256, KEPT = 64 };
+
+/* What MPFR says of a place: the sign of G - 1, and what its size is at least. */
+typedef struct known { double t, least; int sign; } known;
 
 typedef struct curve {
   qn_super s;
   qn_super_frame frame;
   double off[3], size; /* off: what the frame's pairs leave of a coordinate; size: the longest stretch of such a line in the box */
-  int convex;
+  int convex, straight; /* straight: G is linear on every piece */
   const qn_super_exact *exact;
   qn_super_mp mp[2]; /* of QN_SUPER_BITS/2 and QN_SUPER_BITS bits */
   int mp_ready[2];
+  known kept[KEPT];   /* by t; t nan: empty */
+  int fines, zeros;   /* places asked in MPFR; of them, on this piece, those with sign 0 */
 } curve;
 
 typedef struct sample { double value, slope, error, slope_error; } sample;
@@ -105,9 +114,30 @@ static int fine_sign(curve *c, double t, int *slope) {
   return sign && (!slope || *slope) ? sign : finely(c, 1, t, slope);
 }
 
+/* The place in MPFR; places that were asked of late are kept. */
+static known fine_at(curve *c, double t) {
+  uint64_t bits;
+  memcpy(&bits, &t, sizeof bits);
+  known *f = &c->kept[(bits * 0x9e3779b97f4a7c15u) >> 58];
+  if (f->t != t) {
+    f->t = t, f->least = 0, f->sign = finely(c, 0, t, NULL);
+    const int level = f->sign == 0;
+    f->sign = f->sign ? f->sign : finely(c, 1, t, NULL);
+    if (f->sign) {
+      qn_super_mp *mp = &c->mp[level];
+      mpfr_abs(mp->c, mp->c, MPFR_RNDN);
+      mpfr_sub(mp->c, mp->c, mp->bound, MPFR_RNDZ);
+      f->least = fmax(0, mpfr_get_d(mp->c, MPFR_RNDZ));
+    }
+    c->fines++;
+    c->zeros += f->sign == 0;
+  }
+  return *f;
+}
+
 static int sign_at(curve *c, double t) {
   int s = sample_sign(look(c, t));
-  return s ? s : fine_sign(c, t, NULL);
+  return s ? s : fine_at(c, t).sign;
 }
 
 static double middle(double a, double b) { return a + 0.5 * (b - a); }
@@ -306,19 +336,33 @@ static qn_interval scaled(qn_interval a, const curve *c, int i, int way) {
 
 typedef enum verdict { SPLIT, ABOVE, BELOW, MONOTONE } verdict;
 
+/* An end of a piece on which G changes by no more than `most`; a sign that doubles leave open is looked for only where the piece may be told by it. */
+static known end_at(curve *c, double t, double most) {
+  const sample s = look(c, t);
+  const int sign = sample_sign(s);
+  return sign || !(most < 16 * s.error) ? (known){t, fabs(s.value) - s.error, sign} : fine_at(c, t);
+}
+
 /* Two lines from the ends, with the steepest slopes, bound G from either side. */
-static verdict by_ends(const curve *c, double a, double b, qn_interval slope) {
-  sample from = look(c, a), to = look(c, b);
-  int sign = sample_sign(from);
-  if (!sign || sign != sample_sign(to) || !(slope.hi - slope.lo < INFINITY) || !isfinite(from.value) || !isfinite(to.value)) {
+static verdict by_ends(curve *c, double a, double b, qn_interval slope) {
+  if (!(slope.hi - slope.lo < INFINITY)) {
     return SPLIT;
   }
-  double near = fabs(from.value) - from.error, far = fabs(to.value) - to.error, lo = sign > 0 ? slope.lo : -slope.hi, hi = sign > 0 ? slope.hi : -slope.lo;
+  const double change = fmax(slope.hi, -slope.lo) * (b - a);
+  const known from = end_at(c, a, change), to = end_at(c, b, change);
+  const int sign = from.sign;
+  if (!sign || sign != to.sign || !isfinite(from.least) || !isfinite(to.least)) {
+    return SPLIT;
+  }
+  if (change * (1 + 16 * QN_U) < from.least) {
+    return sign > 0 ? ABOVE : BELOW;
+  }
+  const double near = from.least, far = to.least, lo = sign > 0 ? slope.lo : -slope.hi, hi = sign > 0 ? slope.hi : -slope.lo;
   double most = near * hi - far * lo, bend = lo * hi * (b - a); /* where the lines meet: sign G is at least (most + bend)/(hi - lo); bend < 0 */
   return most + bend > 16 * QN_U * (most - bend) ? (sign > 0 ? ABOVE : BELOW) : SPLIT;
 }
 
-static verdict judge(const curve *c, double a, double b) {
+static verdict judge(curve *c, double a, double b) {
   qn_interval x[3];
   double lo[3], hi[3], g[3], error;
   int crossing = 0, way[3]; /* way: d|X_i|/dt is way D_i on a piece of one sign */
@@ -333,7 +377,7 @@ static verdict judge(const curve *c, double a, double b) {
     x[i] = (qn_interval){lo[i], hi[i]};
   }
   double least = qn_super_norm(&c->s, lo, g, &error);
-  if (least - error > 1) {
+  if (least - error > 1 || least == INFINITY) {
     return ABOVE;
   }
   double most = qn_super_norm(&c->s, hi, g, &error);
@@ -357,18 +401,34 @@ static verdict judge(const curve *c, double a, double b) {
   return slope.lo > 0 || slope.hi < 0 ? MONOTONE : by_ends(c, a, b, slope);
 }
 
+/* Where e is 2 and neither |X| + |Y| nor Z changes on a piece, nor does G. */
+static int is_still(const curve *c, double a, double b) {
+  const qn_super_exact *line = c->exact;
+  const double m = middle(a, b);
+  const int together = (along(c, 0, m) < 0) == (along(c, 1, m) < 0); /* of one sign */
+  return c->s.e == 2 && c->frame.e[1] == 0 && qn_num_is_zero(line->D[2]) &&
+         qn_num_cmp(line->ctx, line->D[0], together ? qn_num_neg(line->ctx, line->D[1]) : line->D[1]) == 0;
+}
+
+/* A piece that would take more than it may fails: nothing is said of what was not looked at. */
 static void settle(curve *c, double a, double b, places *p) {
   struct { double a, b; } stack[STACK];
   size_t depth = 0;
   double least = QN_SUPER_NARROW * c->size;
   stack[depth].a = a, stack[depth].b = b;
   depth++;
-  for (int nodes = 0; depth; nodes++) {
+  c->zeros = 0;
+  const int ends_do = c->straight || is_still(c, a, b);
+  for (int nodes = 0; depth && c->zeros < MOST_ZEROS; nodes++) {
     depth--;
     a = stack[depth].a, b = stack[depth].b;
     double m = middle(a, b);
-    verdict v = judge(c, a, b);
-    if (v == SPLIT && b - a > least && between(a, m, b) && nodes < MOST_NODES && depth + 2 <= STACK) {
+    verdict v = ends_do ? MONOTONE : judge(c, a, b);
+    if (v == SPLIT && b - a > least && between(a, m, b)) {
+      if (nodes >= MOST_NODES || c->fines > MOST_FINE || depth + 2 > STACK) {
+        c->exact->ctx->failed = c->exact->ctx->failed ? c->exact->ctx->failed : QUOIN_E_LIMIT;
+        return;
+      }
       stack[depth].a = m, stack[depth].b = b;
       stack[depth + 1].a = a, stack[depth + 1].b = m;
       depth += 2;
@@ -428,12 +488,58 @@ static void general(curve *c, double a, double b, places *p) {
 
 /* ------------------------------------------------------------------------------------------------------------------ */
 
+/* A line that runs beside an axis at 1 or beyond it is in the solid nowhere, since no |X_i| is above G. Where n is 0 a Z that stands still below 1 counts for nothing: it is made 0. */
+static int passes_by(qn_super_exact *line) {
+  const qn_num one = qn_num_from_int(line->ctx, 1);
+  for (int i = 0; i < 3; i++) {
+    if (qn_num_is_zero(line->D[i]) && qn_num_cmp(line->ctx, qn_num_abs(line->ctx, line->O[i]), one) >= 0) {
+      return 1;
+    }
+  }
+  if (qn_num_is_zero(line->n) && qn_num_is_zero(line->D[2])) {
+    line->O[2] = QN_NUM_ZERO;
+  }
+  return 0;
+}
+
+/* Where n is 2 and the line meets the axis of Z, rho and so G are linear on every piece: it may run along a ruling, or as near to one as numbers come. */
+static int is_straight(const qn_super_exact *line) {
+  qn_ctx *ctx = line->ctx;
+  return qn_num_cmp(ctx, line->n, qn_num_from_int(ctx, 2)) == 0 && qn_num_cmp(ctx, qn_num_mul(ctx, line->O[0], line->D[1]), qn_num_mul(ctx, line->O[1], line->D[0])) == 0;
+}
+
+/* A line along Z: G falls to where Z = 0 and rises again. It is rho there. */
+static void upright(curve *c, double a, double b, places *p) {
+  qn_ctx *ctx = c->exact->ctx;
+  qn_super_exact flat = *c->exact;
+  flat.O[2] = flat.D[2] = QN_NUM_ZERO;
+  const double m = -qn_num_to_double(qn_num_div(ctx, c->exact->O[2], c->exact->D[2]));
+  const qn_super_exact *line = c->exact;
+  c->exact = &flat;
+  const int least = fine_sign(c, 0, NULL);
+  c->exact = line;
+  if (least < 0 && between(a, m, b) && sign_at(c, m) < 0) {
+    place(p, a, 1);
+    place(p, m, -1);
+    place(p, b, 1);
+  }
+}
+
 size_t qn_super_careful(const qn_super_exact *line, double (*roots)[2], size_t max) {
-  curve c = {.exact = line};
+  qn_super_exact own = *line;
+  curve c = {.exact = &own};
   const qn_num two = qn_num_from_int(line->ctx, 2);
   double a, b, most = 0;
+  if (passes_by(&own)) {
+    return 0;
+  }
+  line = &own;
+  for (int i = 0; i < KEPT; i++) {
+    c.kept[i].t = NAN;
+  }
   qn_super_frame_from_exact(line, &c.frame);
   c.s = qn_super_make(c.frame.e[0], c.frame.n[0]);
+  c.straight = is_straight(line);
   c.convex = qn_num_cmp(line->ctx, line->e, two) <= 0 && qn_num_cmp(line->ctx, line->n, two) <= 0;
   if (line->ctx->failed || !qn_super_clip(&c.frame, &a, &b) || !isfinite(a) || !isfinite(b)) {
     return 0;
@@ -455,6 +561,8 @@ size_t qn_super_careful(const qn_super_exact *line, double (*roots)[2], size_t m
       place(&p, inside, -1);
       place(&p, right, 1);
     }
+  } else if (qn_num_is_zero(line->D[0]) && qn_num_is_zero(line->D[1])) {
+    upright(&c, a, b, &p);
   } else {
     general(&c, a, b, &p);
   }

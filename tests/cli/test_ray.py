@@ -101,6 +101,59 @@ class Wrong(Case):
         self.assertEqual(r.out, "1 1 2\n")
 
 
+class Superquadrics(Case):
+    """Lines in the surface, which are in the solid nowhere, and lines so near beside it that no double tells them from these: in caps, along rulings, edges and upright."""
+    EXPONENT = 2 / 7.5
+
+    def ends(self, form, *numbers):
+        words = self.good(run("ray", self.model(f"superquadric({form});"), "--", *numbers)).out.split()
+        self.assertEqual(len(words), 1 + 2 * int(words[0]))
+        return [float(t) for t in words[1:]]
+
+    def near(self, got, want):
+        self.assertEqual(len(got), len(want))
+        for a, b in zip(got, want):
+            self.assertLess(abs(a - b), 2**-40)
+
+    def crossing(self, a, b):
+        """Where (1.25 + t, 1.5 + t) crosses the outline of superquadric([1, 2, 1], 7.5, 0), between a and b."""
+        beyond = lambda t: abs(1.25 + t)**self.EXPONENT + abs((1.5 + t) / 2)**self.EXPONENT > 1
+        self.assertNotEqual(beyond(a), beyond(b))
+        for _ in range(100):
+            m = (a + b) / 2
+            a, b = (m, b) if beyond(m) == beyond(a) else (a, m)
+        return a
+
+    def test_in_and_beside_a_cap(self):
+        star = "[1, 2, 1], 7.5, 0"
+        self.assertEqual(self.ends(star, 1.25, 1.5, 1, 1, 1, 0), [])
+        self.assertEqual(self.ends(star, 1.25, 1.5, "1.00000000000000001", 1, 1, 0), [])
+        self.near(self.ends(star, 1.25, 1.5, "0.99999999999999999", 1, 1, 0),
+                  [self.crossing(-1.6, -1.5), self.crossing(-1.5, -1.4), self.crossing(-1.35, -1.25), self.crossing(-1.25, -1.1)])
+
+    def test_upright(self):
+        self.assertEqual(self.ends("1, 4, 0", 0.25, 0.25, -5, 0, 0, 1), [])
+        self.assertEqual(self.ends("1, 4, 0", "0.2500000000000000001", 0.25, -5, 0, 0, 1), [])
+        self.near(self.ends("1, 4, 0", "0.2499999999999999999", 0.25, -5, 0, 0, 1), [4, 6])
+
+    def test_rulings(self):
+        for n in (2, 3, 7.5):  # in the plane z = 0 an exponent of 2 makes a square
+            self.assertEqual(self.ends(f"1, 2, {n}", 0, 1, 0, 1, -1, 0), [])
+            self.assertEqual(self.ends(f"1, 2, {n}", 0, "1.00000000000000000001", 0, 1, -1, 0), [])
+            self.near(self.ends(f"1, 2, {n}", 0, "0.99999999999999999999", 0, 1, -1, 0), [0, 1])
+        self.assertEqual(self.ends("1, 4, 2", 0, 0, 1, 0.25, 0.25, -1), [])  # from the tip to the star below it
+        self.assertEqual(self.ends("1, 4, 2", 0, 0, "1.0000000000000000000001", 0.25, 0.25, -1), [])
+        self.near(self.ends("1, 4, 2", 0, 0, "0.9999999999999999999999", 0.25, 0.25, -1), [0, 1])
+        self.assertEqual(self.ends("1, 0, 3", "0.216", 0, "0.512", 0, 1, 0), [])  # (3/5)^2 + (4/5)^2 = 1
+        self.assertEqual(self.ends("1, 0, 3", "0.216", 0, "0.51200000000000000001", 0, 1, 0), [])
+        self.near(self.ends("1, 0, 3", "0.216", 0, "0.51199999999999999999", 0, 1, 0), [-0.216, 0.216])
+
+    def test_exponents_without_bounds(self):
+        for form in ("1, 222222265", "1, 1e9, 1e9", "[1, 2, 1], 0.000001, 1e7"):
+            self.assertEqual(self.ends(form, -5, -2, 0.3, 1, 0.4, 0.1), [])
+        self.near(self.ends("1, 1e9", -5, 0, 0, 1, 0, 0), [4, 6])
+
+
 class Many(Case):
     def test_order_and_threads(self):
         n = 40
