@@ -179,8 +179,7 @@ static quoin_status woven(quoin_work *work, unsigned lane, unsigned want, size_t
   return status;
 }
 
-static const uint8_t LANE_AT[8][8] = {{0, 1, 4, 5, 16, 17, 20, 21},     {2, 3, 6, 7, 18, 19, 22, 23},     {8, 9, 12, 13, 24, 25, 28, 29},   {10, 11, 14, 15, 26, 27, 30, 31},
-                                      {32, 33, 36, 37, 48, 49, 52, 53}, {34, 35, 38, 39, 50, 51, 54, 55}, {40, 41, 44, 45, 56, 57, 60, 61}, {42, 43, 46, 47, 58, 59, 62, 63}};
+QN_INLINE quoin_run run_of(const qn_sheaf *s, unsigned lane) { return (quoin_run){s->first[lane], s->spans.row_count[lane] / 2}; }
 
 /* One tile; its first ray is number `first` of the answer, a row has `stride`. */
 static quoin_status tile_intervals(quoin_work *work, unsigned want, size_t first, size_t stride, unsigned columns, unsigned rows) {
@@ -190,28 +189,26 @@ static quoin_status tile_intervals(quoin_work *work, unsigned want, size_t first
   if (status != QUOIN_OK) {
     return status;
   }
-  if (s->found_count > UINT32_MAX - QN_LANES * (size_t)(s->spans.rows / 2) ||
-      !qn_grow(work->mem, &s->found, &s->found_capacity, s->found_count + QN_LANES * (size_t)(s->spans.rows / 2))) {
-    return QUOIN_E_MEMORY;
-  }
-  for (unsigned y = 0; y < rows; y++) {
-    quoin_run *run = s->found_of + first + y * stride;
-    for (unsigned x = 0; want && x < columns; x++) { /* what is certain has nothing in the boundary */
+  for (unsigned y = 0; want && y < rows; y++) {
+    for (unsigned x = 0; x < columns; x++) { /* what is certain has nothing in the boundary */
       s->boundary_of[first + y * stride + x] = (quoin_run){(uint32_t)s->boundary_count, 0};
     }
-    if (s->spans.rows == 0) {
+  }
+  if (s->spans.rows == 0) {
+    for (unsigned y = 0; y < rows; y++) {
       for (unsigned x = 0; x < columns; x++) {
-        run[x] = (quoin_run){(uint32_t)s->found_count, 0};
+        s->found_of[first + y * stride + x] = (quoin_run){(uint32_t)s->found_count, 0};
       }
-      continue;
     }
-    for (unsigned x = 0; x < columns; x++) {
-      const unsigned lane = LANE_AT[y][x];
-      const uint32_t n = sure >> lane & 1 ? s->spans.row_count[lane] / 2 : 0;
-      run[x] = (quoin_run){(uint32_t)s->found_count, n};
-      if (n) {
-        qn_sheaf_write(work, lane, s->found + s->found_count);
-        s->found_count += n;
+  } else if (columns == 8 && rows == 8) {
+    for (unsigned lane = 0; lane < QN_LANES; lane += 4) { /* two columns and two rows */
+      quoin_run *run = s->found_of + first + qn_lane_row(lane) * stride + qn_lane_column(lane);
+      run[0] = run_of(s, lane), run[1] = run_of(s, lane + 1), run[stride] = run_of(s, lane + 2), run[stride + 1] = run_of(s, lane + 3);
+    }
+  } else {
+    for (unsigned y = 0; y < rows; y++) {
+      for (unsigned x = 0; x < columns; x++) {
+        s->found_of[first + y * stride + x] = run_of(s, qn_lane_of(x, y));
       }
     }
   }

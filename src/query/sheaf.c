@@ -382,82 +382,20 @@ static quoin_status round_alone(quoin_work *work, const bundle *b, unsigned lane
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
-/* Planes across an axis first, then row by row: neighbours' ends are mostly on one surface. */
-static quoin_status round_rows(quoin_work *work, const bundle *b, uint64_t lanes) {
-  qn_packet_spans *s = &work->sheaf->spans;
-  const qn_packet *packet = &work->sheaf->packet;
-  uint64_t *made = &qn_scratch_counts(work->scratch)->exact_forms, some = 0;
-  qn_packet_hits hits;
-  _Alignas(64) double rounded[QN_LANES];
+/* What wide code leaves. */
+static quoin_status round_rest(quoin_work *work, const bundle *b) {
+  const qn_packet_spans *s = &work->sheaf->spans;
   quoin_status status = QUOIN_OK;
-  work->wide->round_flats(work->scene, packet, s, lanes, made);
-  if (s->rows == 0) {
-    return QUOIN_OK;
-  }
   for (uint32_t j = 0; j < s->rows; j++) {
-    some |= s->pending[j];
-  }
-  for (uint64_t m = some; m; m &= m - 1) {
-    const unsigned lane = qn_trailing_zeros(m);
-    hits.error[lane] = s->tolerance[lane] / 2;
-  }
-  for (uint32_t j = 0; some && j < s->rows && status == QUOIN_OK; j++) {
-    double *t = s->row_t + (size_t)j * QN_LANES;
-    const double *names = s->row_name + (size_t)j * QN_LANES;
-    const uint64_t now = s->pending[j];
-    for (uint64_t m = now; m; m &= m - 1) {
+    for (uint64_t m = s->pending[j]; m && status == QUOIN_OK; m &= m - 1) {
       const unsigned lane = qn_trailing_zeros(m);
+      const size_t at = (size_t)j * QN_LANES + lane;
       uint64_t name;
-      memcpy(&name, &names[lane], sizeof name);
-      hits.t[lane] = t[lane], hits.surface[lane] = (uint32_t)name, hits.leaf[lane] = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
-    }
-    const uint64_t sure = now ? work->wide->round(work->scene, packet, &hits, now, rounded, made) : 0;
-    for (uint64_t m = sure; m; m &= m - 1) {
-      const unsigned lane = qn_trailing_zeros(m);
-      t[lane] = rounded[lane];
-    }
-    for (uint64_t m = now & ~sure; m && status == QUOIN_OK; m &= m - 1) {
-      const unsigned lane = qn_trailing_zeros(m);
-      uint64_t name;
-      memcpy(&name, &names[lane], sizeof name);
-      status = round_alone(work, b, lane, hits.error[lane], name, &t[lane]);
+      memcpy(&name, &s->row_name[at], sizeof name);
+      status = round_alone(work, b, lane, s->tolerance[lane] / 2, name, &s->row_t[at]);
     }
   }
   return status;
-}
-
-/* The role of a payload's surface in its leaf. Neighbouring rays ask for the same few, and which face of a box it is cannot be guessed. */
-QN_INLINE uint32_t role_of(const quoin_scene *scene, qn_sheaf_role *known, uint64_t name) {
-  const uint64_t key = name & ~QN_SPAN_LARGER;
-  qn_sheaf_role *at = &known[key * 0x9e3779b97f4a7c15u >> (64 - QN_SHEAF_ROLE_BITS)];
-  if (QN_UNLIKELY(at->name != key)) {
-    const qn_leaf *leaf = &scene->leaves[(uint32_t)(name >> 32) & QN_SPAN_LEAF];
-    const qn_half *half = &scene->halves[leaf->half0];
-    for (uint32_t i = 1; i < leaf->halves && half->surface != (uint32_t)name; i++) {
-      half++;
-    }
-    *at = (qn_sheaf_role){key, half->role};
-  }
-  return at->role;
-}
-
-QN_INLINE quoin_end end_of(const quoin_scene *scene, qn_sheaf_role *known, const double *t, const double *payload) {
-  uint64_t name;
-  memcpy(&name, payload, sizeof name);
-  if (QN_UNLIKELY(name == QN_SPAN_CUT)) {
-    return (quoin_end){*t == 0 ? 0 : *t, QUOIN_NO_PART, QUOIN_BODY}; /* no negative zero */
-  }
-  return (quoin_end){*t, (uint32_t)(name >> 32) & QN_SPAN_LEAF, role_of(scene, known, name)};
-}
-
-void qn_sheaf_write(const quoin_work *work, unsigned lane, quoin_interval *out) {
-  const qn_packet_spans *s = &work->sheaf->spans;
-  const quoin_scene *scene = work->scene;
-  qn_sheaf_role *known = work->sheaf->roles;
-  const double *t = s->row_t + lane, *name = s->row_name + lane;
-  for (uint32_t j = s->row_count[lane]; j; j -= 2, t += 2 * QN_LANES, name += 2 * QN_LANES) {
-    *out++ = (quoin_interval){end_of(scene, known, t, name), end_of(scene, known, t + QN_LANES, name + QN_LANES)};
-  }
 }
 
 /* --- the packet ------------------------------------------------------------------------------------------------------------ */
@@ -546,11 +484,34 @@ static quoin_status make_rows(quoin_work *work, const bundle *b, uint64_t *sure)
     lanes &= ~((uint64_t)!in_boxes(work, lane) << lane);
   }
   *sure = lanes;
+  for (uint64_t m = ~lanes; m; m &= m - 1) {
+    s->spans.row_count[qn_trailing_zeros(m)] = 0;
+  }
   qn_counts *counts = qn_scratch_counts(work->scratch);
   const uint64_t answered = (uint64_t)__builtin_popcountll(lanes);
   counts->rays += answered;
   counts->exact_rays += (uint64_t)__builtin_popcountll(live) - answered;
-  return round_rows(work, b, lanes);
+  work->wide->round_rows(work->scene, &s->packet, &s->spans, &counts->exact_forms);
+  return s->spans.rows ? round_rest(work, b) : QUOIN_OK;
+}
+
+/* All rows into found, after the `before` stretches that are there. */
+static quoin_status write_rows(quoin_work *work, size_t before) {
+  qn_sheaf *s = work->sheaf;
+  size_t count = before;
+  for (unsigned lane = 0; lane < QN_LANES; lane++) {
+    s->first[lane] = (uint32_t)count;
+    count += s->spans.row_count[lane] / 2;
+  }
+  s->first[QN_LANES] = (uint32_t)count;
+  if (count > UINT32_MAX || !qn_grow(work->mem, &s->found, &s->found_capacity, count)) {
+    return QUOIN_E_MEMORY;
+  }
+  s->found_count = count;
+  if (count > before) {
+    work->wide->write_rows(work->scene, &s->spans, s->roles, s->first, s->found);
+  }
+  return QUOIN_OK;
 }
 
 quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, double (*low)[6], int kept, qn_sheaf_line line, const void *user, uint64_t *sure) {
@@ -566,26 +527,12 @@ quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, do
     qn_packet_fill(&s->packet, lanes, n, rays, low);
   }
   quoin_status status = make_rows(work, &(bundle){line, user}, sure);
-  if (status != QUOIN_OK) {
-    return status;
-  }
-  size_t count = 0;
-  for (unsigned lane = 0; lane < n; lane++) {
-    s->first[lane] = (uint32_t)count;
-    count += *sure >> lane & 1 ? s->spans.row_count[lane] / 2 : 0;
-  }
-  s->first[n] = (uint32_t)count;
-  if (!qn_grow(work->mem, &s->found, &s->found_capacity, count)) {
-    return QUOIN_E_MEMORY;
-  }
-  s->found_count = count;
-  for (uint64_t m = count ? *sure : 0; m; m &= m - 1) { /* with no stretch there may be no room for them */
-    const unsigned lane = qn_trailing_zeros(m);
-    qn_sheaf_write(work, lane, s->found + s->first[lane]);
-  }
-  return QUOIN_OK;
+  return status == QUOIN_OK ? write_rows(work, 0) : status;
 }
 
 qn_packet *qn_sheaf_packet(quoin_work *work) { return make(work) ? &work->sheaf->packet : NULL; }
 
-quoin_status qn_sheaf_tile(quoin_work *work, uint64_t *sure) { return make_rows(work, &(bundle){NULL, NULL}, sure); }
+quoin_status qn_sheaf_tile(quoin_work *work, uint64_t *sure) {
+  quoin_status status = make_rows(work, &(bundle){NULL, NULL}, sure);
+  return status == QUOIN_OK && work->sheaf->spans.rows ? write_rows(work, work->sheaf->found_count) : status;
+}

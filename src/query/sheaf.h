@@ -7,9 +7,6 @@
 typedef struct qn_sheaf_event { double t; uint64_t name; } qn_sheaf_event; /* name: a payload with the slot in the leaf's place, and QN_SHEAF_ENTERS */
 #define QN_SHEAF_ENTERS ((uint64_t)1 << 63)
 
-typedef struct qn_sheaf_role { uint64_t name; uint32_t role; } qn_sheaf_role; /* a payload without QN_SPAN_LARGER, or QN_SPAN_CUT for none */
-enum { QN_SHEAF_ROLE_BITS = 8 };
-
 enum { QN_SHEAF_FEW = 64 }; /* slots of a group that are sorted as one */
 
 struct qn_sheaf {
@@ -21,7 +18,7 @@ struct qn_sheaf {
   uint32_t ordered;      /* the group whose slots `order` is of */
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
-  qn_sheaf_role roles[1 << QN_SHEAF_ROLE_BITS]; /* some that were asked for */
+  qn_span_role roles[1 << QN_SPAN_ROLE_BITS];
   qn_span_plan plans[1 << QN_PLAN_BITS]; /* of a program that is not deep */
   uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
   /* Of a grid: found is all of it, and */
@@ -40,9 +37,9 @@ quoin_status qn_sheaf_rays(quoin_work *work, size_t n, const quoin_ray *rays, do
 
 /* The packet to fill in for qn_sheaf_tile, the same each time; null when memory is refused. */
 qn_packet *qn_sheaf_packet(quoin_work *work);
-/* Answers that packet. *sure: the lanes that are; lane i has work->sheaf->spans.row_count[i] / 2 stretches, which qn_sheaf_write writes. */
+/* Answers that packet. *sure: the lanes that are; lane i has work->sheaf->spans.row_count[i] / 2 stretches (none where it is not sure), which are found[first[i]] and on: found_count
+   is increased by them all. */
 quoin_status qn_sheaf_tile(quoin_work *work, uint64_t *sure);
-void qn_sheaf_write(const quoin_work *work, unsigned lane, quoin_interval *out);
 void qn_sheaf_free(quoin_work *work);
 
 #endif

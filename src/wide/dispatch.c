@@ -12,7 +12,8 @@
   void qn_spans_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_spans *, qn_wide_counts *); \
   void qn_points_##isa(const struct quoin_scene *, qn_point_walk *, size_t, const double *, const double *, uint8_t *, qn_wide_counts *); \
   void qn_spots_##isa(const qn_packet_hits *, uint64_t, const double *, quoin_spot *, size_t);           \
-  void qn_round_flats_##isa(const struct quoin_scene *, const qn_packet *, qn_packet_spans *, uint64_t, uint64_t *); \
+  void qn_round_rows_##isa(const struct quoin_scene *, const qn_packet *, qn_packet_spans *, uint64_t *); \
+  void qn_write_rows_##isa(const struct quoin_scene *, const qn_packet_spans *, qn_span_role *, const uint32_t *, quoin_interval *); \
   int qn_round_one_##isa(const struct quoin_scene *, const qn_packet *, const qn_packet_hits *, double *, uint64_t *); \
   void qn_gather_##isa(const quoin_ray *, const uint16_t *, unsigned, qn_packet *, qn_gathered *);       \
   void qn_move_##isa(qn_packet *);                                                                       \
@@ -28,7 +29,7 @@ BODIES_OF(avx512)
   {                                                                                                                                      \
     .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .each = qn_each_##isa, .spans = qn_spans_##isa, \
     .spans_few = qn_spans_few_##isa, .points = qn_points_##isa, .spots = qn_spots_##isa, .round = qn_round_##isa, .round_one = qn_round_one_##isa, \
-    .round_flats = qn_round_flats_##isa, .gather = qn_gather_##isa, .move = qn_move_##isa                                                  \
+    .round_rows = qn_round_rows_##isa, .write_rows = qn_write_rows_##isa, .gather = qn_gather_##isa, .move = qn_move_##isa                                                  \
   }
 /* NOLINTEND(bugprone-macro-parentheses) */
 /* From the widest to the one that always runs. */

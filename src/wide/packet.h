@@ -112,7 +112,7 @@ typedef struct qn_packet_spans {
   uint64_t merged;
   qn_span_plan *plans;  /* 1 << QN_PLAN_BITS of them, kept from packet to packet of one scene; null: none */
   uint32_t *gate_count; /* with plans: for each gate of the program its `base`, before and after */
-  uint64_t *pending; /* by row, of the first `rows`: the lanes whose t is to be rounded yet (qn_round_flats_fn) */
+  uint64_t *pending; /* by row, of the first `rows`: the lanes whose t is to be rounded yet (qn_round_rows_fn) */
   uint32_t rows;
 } qn_packet_spans;
 #define QN_SPAN_FAR 0x1p+500
@@ -121,9 +121,15 @@ typedef struct qn_packet_spans {
 #define QN_SPAN_LARGER ((uint64_t)1 << 62)
 #define QN_SPAN_LEAF 0x3fffffffu /* of the upper half */
 
-/* The rows of `lanes` that end on planes across an axis get the double nearest to the true t, where that is certain; the others are `pending`. *made is increased by the
-   exact forms made. */
-typedef void (*qn_round_flats_fn)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t lanes, uint64_t *made);
+/* The ends of all rows get the double nearest to the true t, where that is certain; the others are `pending`. *made is increased by the exact forms made. */
+typedef void (*qn_round_rows_fn)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made);
+
+/* Which part and role a payload is: some that were asked for, by hash. */
+typedef struct qn_span_role { uint64_t name; double word; } qn_span_role; /* a payload without QN_SPAN_LARGER, or QN_SPAN_CUT for none; a quoin_end's bits after its t */
+enum { QN_SPAN_ROLE_BITS = 8 };
+/* The rows of lane i become the intervals from out + first[i] on. */
+typedef void (*qn_write_rows_fn)(const struct quoin_scene *scene, const qn_packet_spans *spans, qn_span_role known[1 << QN_SPAN_ROLE_BITS], const uint32_t first[QN_LANES],
+                                 quoin_interval *out);
 
 /* Fills spans; live lanes must have from < to or are not solved. A tile's origins are filled in unless nothing is near. */
 typedef void (*qn_spans_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *spans, qn_wide_counts *counts);
@@ -162,7 +168,8 @@ typedef struct qn_wide {
   qn_round_one_fn round_one;
   qn_gather_fn gather;
   qn_move_fn move;
-  qn_round_flats_fn round_flats;
+  qn_round_rows_fn round_rows;
+  qn_write_rows_fn write_rows;
 } qn_wide;
 /* The widest body this machine runs, or the one QUOIN_ISA names ("sse2", "avx2", "avx512") when it runs it. */
 const qn_wide *qn_wide_pick(void);

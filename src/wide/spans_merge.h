@@ -96,8 +96,8 @@ static QN_NOINLINE void add_cut(merging *m, int i, double a, double pa, double b
   out->row_count[lane] += 2;
 }
 
-/* A stretch [a, b] of the solid in each lane of `which`. */
-QN_INLINE void add_stretch(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
+/* A stretch [a, b] of the solid in each lane of `which`. fresh: it is the first of each lane. */
+QN_INLINE void add_stretch_to(merging *m, int fresh, vm which, vd a, vd pa, vd b, vd pb) {
   const int o = m->group * QN_W;
   const qn_packet *p = m->w->f.p;
   qn_packet_spans *out = m->out;
@@ -106,15 +106,26 @@ QN_INLINE void add_stretch(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
   vm whole = vand(vand(clearly_before(m, vload(p->from + o), a), clearly_before(m, b, vload(p->to + o))),
                   vand(vle(vabs(a), reach), vle(vabs(b), reach)));
   unsigned clear = bits & vbits(whole);
+  uint32_t *counts = out->row_count + o, differ = 0;
+  for (unsigned i = 1; !fresh && i < QN_W; i++) {
+    differ |= counts[i] ^ counts[0];
+  }
+  if (!differ && clear == bits) { /* what is left in other lanes is written over, or is past their rows */
+    const size_t at = (size_t)(fresh ? 0 : counts[0]) * QN_LANES + (size_t)o;
+    vstore(out->row_t + at, a), vstore(out->row_t + at + QN_LANES, b), vstore(out->row_name + at, pa), vstore(out->row_name + at + QN_LANES, pb);
+    for (unsigned i = 0; i < QN_W; i++) {
+      counts[i] += (clear >> i & 1) * 2;
+    }
+    return;
+  }
   _Alignas(64) double ta[QN_W], tb[QN_W], na[QN_W], nb[QN_W];
   vstore(ta, a), vstore(tb, b), vstore(na, pa), vstore(nb, pb);
   for (unsigned i = 0; i < QN_W; i++) {
     if (clear >> i & 1) {
-      uint32_t *count = &out->row_count[o + (int)i];
-      const size_t at = (size_t)*count * QN_LANES + (size_t)o + i;
+      const size_t at = (size_t)counts[i] * QN_LANES + (size_t)o + i;
       out->row_t[at] = ta[i], out->row_t[at + QN_LANES] = tb[i];
       out->row_name[at] = na[i], out->row_name[at + QN_LANES] = nb[i];
-      *count += 2;
+      counts[i] += 2;
     }
   }
   for (bits &= ~clear; QN_UNLIKELY(bits); bits &= bits - 1) {
@@ -122,6 +133,8 @@ QN_INLINE void add_stretch(merging *m, vm which, vd a, vd pa, vd b, vd pb) {
     add_cut(m, (int)i, ta[i], na[i], tb[i], nb[i]);
   }
 }
+
+QN_INLINE void add_stretch(merging *m, vm which, vd a, vd pa, vd b, vd pb) { add_stretch_to(m, 0, which, a, pa, b, pb); }
 
 /* --- runs taken away from a meet --------------------------------------------------------------------------------------- */
 
@@ -309,12 +322,16 @@ static void merge_groups(const walk *w, qn_packet_spans *out) {
     merging m;
     m.w = w, m.out = out, m.ends = out->ends + (size_t)g * out->capacity * SLOT_DOUBLES, m.group = g, m.meet = root->is_and, m.left = 0;
     m.tolerance = vload(w->tolerance + g * QN_W);
-    if (root->is_and) {
-      meet_of(&m, slot, slots, root->need - root->base);
-    }
-    sweep(&m, &s, sort_slots(&m, slot, slots, &s));
-    if (root->is_and) {
-      last_of_meet(&m);
+    if (slots == 1 && !root->is_and) {
+      add_stretch_to(&m, 1, vmask(slot->hit), vload(m.ends), vload(m.ends + ENTERS_AT), vload(m.ends + QN_W), vload(m.ends + LEAVES_AT));
+    } else {
+      if (root->is_and) {
+        meet_of(&m, slot, slots, root->need - root->base);
+      }
+      sweep(&m, &s, sort_slots(&m, slot, slots, &s));
+      if (root->is_and) {
+        last_of_meet(&m);
+      }
     }
     for (unsigned left = m.left; left; left &= left - 1) {
       out->row_count[g * QN_W + (int)qn_trailing_zeros(left)] = 0;

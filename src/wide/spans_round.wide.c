@@ -1,106 +1,262 @@
-/* Ends of rows on planes across an axis, rounded to the nearest double (spans_flat.h). Other ends are left to round.wide.c. */
+/* Ends of rows, rounded to the nearest double: those on planes across an axis (spans_flat.h) and on spheres (round_ball.h) group by group, the others row by row as first hits
+   are (round.wide.c). */
 #include "scene/rounding.h"
 #include "wide/packet.h"
+#include "wide/round_ball.h"
 #include "wide/spans_flat.h"
 
 #include <string.h>
 
 enum { GROUPS = QN_LANES / QN_W };
 
-/* Lanes of a row that all lie on one surface: rounds those of `active`; returns the others. */
-QN_INLINE unsigned row_on_one(const qn_rounding *of, const qn_packet *packet, double *t, int at, unsigned active) {
-  if (!of || of->kind != QN_ROUNDING_AXIS) {
-    return active;
+uint64_t QN_OF_ISA(qn_round)(const struct quoin_scene *scene, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes,
+                             double t[QN_LANES], uint64_t *made); /* round.wide.c */
+
+QN_INLINE double payload_cut(void) {
+  const uint64_t cut = QN_SPAN_CUT;
+  double bits;
+  memcpy(&bits, &cut, sizeof bits);
+  return bits;
+}
+
+/* --- spheres --------------------------------------------------------------------------------------------------------- */
+
+/* What is rounded here, and the spheres that were met last: mostly where a stretch begins and where it ends are on one, and neighbours' ends are. */
+typedef struct rounding_rows {
+  const struct quoin_scene *scene;
+  const qn_packet *packet;
+  const double *tolerance;
+  uint64_t *made;
+  int planes, balls; /* whether there may be any */
+  uint32_t one;      /* the leaf that is in all lanes of `ball`, or UINT32_MAX */
+  int one_is_ball;
+  unsigned in;       /* else: the lanes of `leaves`, payloads, whose leaves are spheres; `not_in`: those whose leaves are none */
+  unsigned not_in;
+  vd leaves;
+  ball ball;
+} rounding_rows;
+
+static const qn_piece_sphere *sphere_of(const struct quoin_scene *scene, uint32_t leaf) {
+  const qn_piece_head *head = (const qn_piece_head *)(const void *)((const char *)scene->lines + (size_t)scene->line_of[leaf] * 64);
+  return head->kind == QN_PIECE_SPHERE ? (const qn_piece_sphere *)(const void *)head : NULL;
+}
+
+static QN_NOINLINE void see_one_ball(rounding_rows *r, uint32_t leaf) {
+  const qn_piece_sphere *s = sphere_of(r->scene, leaf);
+  r->one = leaf, r->one_is_ball = s != NULL, r->in = r->not_in = 0;
+  if (s) {
+    r->ball = ball_of_one(r->packet, s);
   }
+}
+
+static QN_NOINLINE void see_balls(rounding_rows *r, const double *names, unsigned active) {
+  const qn_piece_sphere *of[QN_W], *some = NULL;
+  r->one = UINT32_MAX, r->in = 0, r->leaves = vload(names);
+  for (unsigned i = 0; i < QN_W; i++) {
+    uint64_t name;
+    memcpy(&name, &names[i], sizeof name);
+    of[i] = active >> i & 1 ? sphere_of(r->scene, (uint32_t)(name >> 32) & QN_SPAN_LEAF) : NULL;
+    some = of[i] ? of[i] : some, r->in |= (unsigned)(of[i] != NULL) << i;
+  }
+  r->not_in = active & ~r->in;
+  if (some) {
+    for (unsigned i = 0; i < QN_W; i++) {
+      of[i] = of[i] ? of[i] : some;
+    }
+    r->ball = ball_of_each(r->packet, of);
+  }
+}
+
+/* Rounds those lanes of `on` that it can; returns the others. All are on r->ball. */
+QN_INLINE unsigned row_on_balls(const rounding_rows *r, double *t, int at, unsigned on) {
+  const qn_packet *p = r->packet;
+  const vd o[3] = {vload(p->o[0] + at), vload(p->o[1] + at), vload(p->o[2] + at)}, d[3] = {vload(p->d[0] + at), vload(p->d[1] + at), vload(p->d[2] + at)};
+  const vd rough = vload(t);
+  vd out;
+  const vm sure = vand(ball_round(p, &r->ball, o, d, rough, vmul(vload(r->tolerance + at), vset(0.5)), &out), vmask(on));
+  vstore(t, vpick(sure, out, rough));
+  return on & ~vbits(sure);
+}
+
+/* --- planes across an axis --------------------------------------------------------------------------------------------- */
+
+QN_INLINE unsigned row_on_plane(const qn_rounding *of, const qn_packet *packet, double *t, int at, unsigned on) {
   const int axis = of->axis[0];
   vd out;
-  const unsigned sure = flat_round(vset(of->place[0]), vset(of->place[1]), vload(packet->o[axis] + at), vload(packet->d[axis] + at), vload(packet->inv[axis] + at), &out) & active;
+  const unsigned sure = flat_round(vset(of->place[0]), vset(of->place[1]), vload(packet->o[axis] + at), vload(packet->d[axis] + at), vload(packet->inv[axis] + at), &out) & on;
+  vstore(t, vpick(vmask(sure), out, vload(t)));
+  return on & ~sure;
+}
+
+/* Lanes on surfaces of their own: rounds those of `active` that it can; returns the others. */
+static unsigned row_on_planes(const rounding_rows *r, double *t, const double *names, int at, unsigned active) {
+  const qn_packet *packet = r->packet;
+  const qn_rounding *of[QN_W], *any = NULL;
+  unsigned flat = 0, axes = 0;
+  for (unsigned m = active; m; m &= m - 1) {
+    const unsigned i = qn_trailing_zeros(m);
+    uint64_t name;
+    memcpy(&name, &names[i], sizeof name);
+    of[i] = qn_scene_rounding(r->scene, (uint32_t)name, r->made);
+    if (of[i] && of[i]->kind == QN_ROUNDING_AXIS) {
+      any = of[i], flat |= 1u << i, axes |= 1u << of[i]->axis[0];
+    }
+  }
+  if (!flat) {
+    return active;
+  }
+  const double *place[QN_W];
+  for (unsigned i = 0; i < QN_W; i++) {
+    of[i] = flat >> i & 1 ? of[i] : any;
+    place[i] = of[i]->place;
+  }
+  vd o, d, inverse, out;
+  if (axes & (axes - 1)) {
+    const double *os[QN_W], *ds[QN_W], *is[QN_W];
+    for (unsigned i = 0; i < QN_W; i++) {
+      const int axis = of[i]->axis[0], from = at + (int)i;
+      os[i] = packet->o[axis] + from, ds[i] = packet->d[axis] + from, is[i] = packet->inv[axis] + from;
+    }
+    o = vcollect(os, 0), d = vcollect(ds, 0), inverse = vcollect(is, 0);
+  } else {
+    const int axis = any->axis[0];
+    o = vload(packet->o[axis] + at), d = vload(packet->d[axis] + at), inverse = vload(packet->inv[axis] + at);
+  }
+  const unsigned sure = flat_round(vcollect(place, 0), vcollect(place, 1), o, d, inverse, &out) & flat;
   vstore(t, vpick(vmask(sure), out, vload(t)));
   return active & ~sure;
 }
 
-/* Row j of a group: rounds what it can of the lanes in `active`; returns the others that lie on a surface. */
-QN_INLINE unsigned row_of_group(const struct quoin_scene *scene, const qn_packet *packet, double *t, const double *names, int at, unsigned active, uint64_t *made) {
-  const qn_rounding *of[QN_W], *any = NULL;
-  unsigned flat = 0, others = 0;
-  if (!active) {
-    return 0;
-  }
-  const double *first = &names[qn_trailing_zeros(active)];
-  if (QN_LIKELY((vbits(vsame(vload(names), vset(*first), UINT64_MAX)) & active) == active)) { /* neighbours, mostly */
-    uint64_t name;
-    memcpy(&name, first, sizeof name);
-    return name == QN_SPAN_CUT ? 0 : row_on_one(qn_scene_rounding(scene, (uint32_t)name, made), packet, t, at, active);
-  }
-  for (unsigned i = 0; i < QN_W; i++) {
-    uint64_t name;
-    memcpy(&name, &names[i], sizeof name);
-    of[i] = NULL;
-    if (active >> i & 1 && name != QN_SPAN_CUT) {
-      of[i] = qn_scene_rounding(scene, (uint32_t)name, made);
-      const unsigned is_flat = of[i] && of[i]->kind == QN_ROUNDING_AXIS;
-      any = is_flat ? of[i] : any;
-      flat |= is_flat << i, others |= (1 - is_flat) << i;
+/* --- rows ------------------------------------------------------------------------------------------------------------------ */
+
+/* Row j of a group where not all lanes end on one surface. */
+static QN_NOINLINE unsigned row_of_many(rounding_rows *r, double *t, const double *names, int at, unsigned active) {
+  active &= ~vbits(vsame(vload(names), vset(payload_cut()), UINT64_MAX));
+  if (r->balls && active) {
+    const unsigned known = r->in | r->not_in, same = vbits(vsame(vload(names), r->leaves, (uint64_t)QN_SPAN_LEAF << 32));
+    if ((active & known & same) != active) {
+      see_balls(r, names, active);
     }
+    const unsigned on = active & r->in;
+    active = (active & ~on) | (on ? row_on_balls(r, t, at, on) : 0);
   }
-  if (!flat) {
-    return others;
-  }
-  unsigned differ = 0;
-  for (unsigned i = 0; i < QN_W; i++) {
-    of[i] = flat >> i & 1 ? of[i] : any;
-    differ |= of[i] != any;
-  }
-  vd high, low, o, d, inverse, out;
-  if (differ) {
-    const double *place[QN_W], *os[QN_W], *ds[QN_W], *is[QN_W];
-    for (unsigned i = 0; i < QN_W; i++) {
-      const int axis = of[i]->axis[0], from = at + (int)i;
-      place[i] = of[i]->place, os[i] = packet->o[axis] + from, ds[i] = packet->d[axis] + from, is[i] = packet->inv[axis] + from;
-    }
-    high = vcollect(place, 0), low = vcollect(place, 1), o = vcollect(os, 0), d = vcollect(ds, 0), inverse = vcollect(is, 0);
-  } else {
-    const int axis = any->axis[0];
-    high = vset(any->place[0]), low = vset(any->place[1]);
-    o = vload(packet->o[axis] + at), d = vload(packet->d[axis] + at), inverse = vload(packet->inv[axis] + at);
-  }
-  const unsigned sure = flat_round(high, low, o, d, inverse, &out) & flat;
-  vstore(t, vpick(vmask(sure), out, vload(t)));
-  return others | (flat & ~sure);
+  return r->planes && active ? row_on_planes(r, t, names, at, active) : active;
 }
 
-void QN_OF_ISA(qn_round_flats)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t lanes, uint64_t *made);
-void QN_OF_ISA(qn_round_flats)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t lanes, uint64_t *made) {
-  const int planes = scene->plane_count > 0 && packet->tile != QN_TILE_PAIRS;
+/* Row j of a group: rounds what it can of the lanes in `active`; returns the others that lie on a surface. */
+QN_INLINE unsigned row_of_group(rounding_rows *r, double *t, const double *names, int at, unsigned active) {
+  const double first = names[qn_trailing_zeros(active)];
+  uint64_t name;
+  memcpy(&name, &first, sizeof name);
+  if (QN_UNLIKELY((active & ~vbits(vsame(vload(names), vset(first), UINT64_MAX))) || name == QN_SPAN_CUT)) {
+    return row_of_many(r, t, names, at, active);
+  }
+  if (r->balls) {
+    const uint32_t leaf = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
+    if (leaf != r->one) {
+      see_one_ball(r, leaf);
+    }
+    if (r->one_is_ball) {
+      return row_on_balls(r, t, at, active);
+    }
+  }
+  if (r->planes) {
+    const qn_rounding *of = qn_scene_rounding(r->scene, (uint32_t)name, r->made);
+    if (of && of->kind == QN_ROUNDING_AXIS) {
+      return row_on_plane(of, r->packet, t, at, active);
+    }
+  }
+  return active;
+}
+
+/* The lanes of a group that have a row j. */
+QN_INLINE unsigned lanes_with(const uint32_t *count, uint32_t j) {
+  unsigned with = 0;
+  for (unsigned i = 0; i < QN_W; i++) {
+    with |= (unsigned)(j < count[i]) << i;
+  }
+  return with;
+}
+
+/* The ends that are rounded here; pending: the others. */
+static void round_groups(rounding_rows *r, qn_packet_spans *spans) {
   uint32_t rows = 0;
-  for (int g = 0; g < GROUPS; g++) {
-    const int at = g * QN_W;
-    const unsigned in = (unsigned)(lanes >> at) & QN_ALL_BITS;
-    uint32_t count[QN_W], most = 0;
-    for (unsigned i = 0; i < QN_W; i++) {
-      count[i] = in >> i & 1 ? spans->row_count[at + (int)i] : 0;
-      most = count[i] > most ? count[i] : most;
+  for (int at = 0; at < QN_LANES; at += QN_W) {
+    const uint32_t *count = spans->row_count + at;
+    uint32_t least = count[0], most = count[0];
+    for (unsigned i = 1; i < QN_W; i++) {
+      least = count[i] < least ? count[i] : least, most = count[i] > most ? count[i] : most;
     }
     for (; rows < most; rows++) {
       spans->pending[rows] = 0;
     }
     for (uint32_t j = 0; j < most; j++) {
-      const double *names = spans->row_name + (size_t)j * QN_LANES + at;
-      unsigned active = 0;
-      for (unsigned i = 0; i < QN_W; i++) {
-        active |= (unsigned)(j < count[i]) << i;
-      }
-      if (planes) {
-        active = row_of_group(scene, packet, spans->row_t + (size_t)j * QN_LANES + at, names, at, active, made);
-      } else {
-        for (unsigned i = 0; i < QN_W; i++) {
-          uint64_t name;
-          memcpy(&name, &names[i], sizeof name);
-          active &= ~((unsigned)(name == QN_SPAN_CUT) << i);
-        }
-      }
-      spans->pending[j] |= (uint64_t)active << at;
+      const unsigned active = j < least ? QN_ALL_BITS : lanes_with(count, j);
+      spans->pending[j] |= (uint64_t)row_of_group(r, spans->row_t + (size_t)j * QN_LANES + at, spans->row_name + (size_t)j * QN_LANES + at, at, active) << at;
     }
   }
   spans->rows = rows;
+}
+
+static int no_rows(const qn_packet_spans *spans) {
+  uint32_t some = 0;
+  for (int i = 0; i < QN_LANES; i++) {
+    some |= spans->row_count[i];
+  }
+  return !some;
+}
+
+/* Row j's pending lanes, as first hits are. */
+static void round_row(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint32_t j, qn_packet_hits *hits, uint64_t *made) {
+  double *t = spans->row_t + (size_t)j * QN_LANES;
+  const double *names = spans->row_name + (size_t)j * QN_LANES;
+  const uint64_t pending = spans->pending[j];
+  _Alignas(64) double rounded[QN_LANES];
+  for (int at = 0; at < QN_LANES; at += 8) {
+    if (!(pending >> at & 255)) {
+      continue;
+    }
+    uint64_t name[8];
+    memcpy(name, names + at, sizeof name);
+    for (int i = 0; i < 8; i++) {
+      hits->t[at + i] = t[at + i];
+      hits->surface[at + i] = (uint32_t)name[i], hits->leaf[at + i] = (uint32_t)(name[i] >> 32) & QN_SPAN_LEAF;
+    }
+  }
+  const uint64_t sure = QN_OF_ISA(qn_round)(scene, packet, hits, pending, rounded, made) & pending;
+  for (int at = 0; at < QN_LANES; at += QN_W) {
+    const unsigned bits = (unsigned)(sure >> at) & QN_ALL_BITS;
+    if (bits) {
+      vstore(t + at, vpick(vmask(bits), vload(rounded + at), vload(t + at)));
+    }
+  }
+  spans->pending[j] = pending & ~sure;
+}
+
+void QN_OF_ISA(qn_round_rows)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made);
+void QN_OF_ISA(qn_round_rows)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made) {
+  const int exact = packet->tile != QN_TILE_PAIRS;
+  rounding_rows r = {.scene = scene, .packet = packet, .tolerance = spans->tolerance, .made = made, .planes = exact && scene->plane_count > 0,
+                     .balls = exact && scene->quadric_count > 0, .one = UINT32_MAX};
+  qn_packet_hits hits;
+  uint64_t some = 0;
+  spans->rows = 0;
+  if (no_rows(spans)) {
+    return;
+  }
+  round_groups(&r, spans);
+  for (uint32_t j = 0; j < spans->rows; j++) {
+    some |= spans->pending[j];
+  }
+  if (!some) {
+    return;
+  }
+  for (int at = 0; at < QN_LANES; at += QN_W) {
+    vstore(hits.error + at, vmul(vload(spans->tolerance + at), vset(0.5)));
+  }
+  for (uint32_t j = 0; j < spans->rows; j++) {
+    if (spans->pending[j]) {
+      round_row(scene, packet, spans, j, &hits, made);
+    }
+  }
 }

@@ -112,6 +112,15 @@ QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   _mm256_storeu_pd(to[0], _mm512_castpd512_pd256(x)), _mm256_storeu_pd(to[1], _mm512_extractf64x4_pd(x, 1));
   _mm256_storeu_pd(to[2], _mm512_castpd512_pd256(y)), _mm256_storeu_pd(to[3], _mm512_extractf64x4_pd(y, 1));
 }
+/* Lane j of a and of b to to[j]; no alignment. */
+QN_INLINE void vdeal(vd a, vd b, double *const to[QN_W]) {
+  const __m256d a0 = _mm512_castpd512_pd256(a), a1 = _mm512_extractf64x4_pd(a, 1), b0 = _mm512_castpd512_pd256(b), b1 = _mm512_extractf64x4_pd(b, 1);
+  const __m256d x[4] = {_mm256_unpacklo_pd(a0, b0), _mm256_unpackhi_pd(a0, b0), _mm256_unpacklo_pd(a1, b1), _mm256_unpackhi_pd(a1, b1)};
+  for (int k = 0; k < 4; k++) {
+    const int j = 2 * (k & 2) + (k & 1);
+    _mm_storeu_pd(to[j], _mm256_castpd256_pd128(x[k])), _mm_storeu_pd(to[j + 2], _mm256_extractf128_pd(x[k], 1));
+  }
+}
 
 #elif defined(QN_ISA_AVX2)
 #define QN_W 4
@@ -153,6 +162,11 @@ QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   __m256d x = _mm256_unpacklo_pd(a, b), y = _mm256_unpackhi_pd(a, b); /* a0 b0 a2 b2, a1 b1 a3 b3 */
   _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(x, y, 0x20)), _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(x, y, 0x31));
+}
+QN_INLINE void vdeal(vd a, vd b, double *const to[QN_W]) {
+  const __m256d x = _mm256_unpacklo_pd(a, b), y = _mm256_unpackhi_pd(a, b); /* a0 b0 a2 b2, a1 b1 a3 b3 */
+  _mm_storeu_pd(to[0], _mm256_castpd256_pd128(x)), _mm_storeu_pd(to[2], _mm256_extractf128_pd(x, 1));
+  _mm_storeu_pd(to[1], _mm256_castpd256_pd128(y)), _mm_storeu_pd(to[3], _mm256_extractf128_pd(y, 1));
 }
 QN_INLINE vm vmask(unsigned bits) {
   const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
@@ -199,6 +213,7 @@ QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   _mm_storeu_pd(to[0], _mm_unpacklo_pd(a, b)), _mm_storeu_pd(to[0] + 2, _mm_unpackhi_pd(a, b));
 }
+QN_INLINE void vdeal(vd a, vd b, double *const to[QN_W]) { _mm_storeu_pd(to[0], _mm_unpacklo_pd(a, b)), _mm_storeu_pd(to[1], _mm_unpackhi_pd(a, b)); }
 QN_INLINE vm vmask(unsigned bits) {
   return _mm_castsi128_pd(_mm_set_epi64x(bits & 2 ? -1 : 0, bits & 1 ? -1 : 0));
 }
