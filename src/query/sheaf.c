@@ -64,6 +64,10 @@ static int make(quoin_work *work) {
   for (size_t i = 0; i < sizeof work->sheaf->roles / sizeof *work->sheaf->roles; i++) {
     work->sheaf->roles[i].name = QN_SPAN_CUT;
   }
+  for (size_t i = 0; i < sizeof work->sheaf->flats / sizeof *work->sheaf->flats; i++) {
+    work->sheaf->flats[i].surface = QUOIN_NO_SURFACE;
+  }
+  work->sheaf->spans.flats = work->sheaf->flats;
   work->sheaf->count = qn_alloc(work->mem, program->gate_count * sizeof *work->sheaf->count);
   work->sheaf->deep = program->paths ? qn_scratch_eval(work->scratch) : NULL;
   work->sheaf->spans.plans = work->sheaf->deep ? NULL : work->sheaf->plans, work->sheaf->spans.gate_count = work->sheaf->count;

@@ -19,6 +19,7 @@ struct qn_sheaf {
   qn_sheaf_event *events, *sorting; size_t event_capacity, sorting_capacity;
   quoin_interval *found; size_t found_count, found_capacity;
   qn_span_role roles[1 << QN_SPAN_ROLE_BITS];
+  qn_span_flat flats[1 << QN_FLAT_BITS];
   qn_span_plan plans[1 << QN_PLAN_BITS]; /* of a program that is not deep */
   uint32_t first[QN_LANES + 1]; /* lane i's stretches: found[first[i]] to found[first[i + 1] - 1] */
   /* Of a grid: found is all of it, and */

@@ -95,6 +95,9 @@ typedef struct qn_span_plan {
   uint8_t drop[QN_PLAN_LEAVES][2];   /* the first one's stretch changes nothing while it lies well within the other's */
   uint8_t alive[QN_PLAN_LEAVES];     /* the leaves that may change the solid in some order; none: these leaves make no solid */
 } qn_span_plan;
+/* A plane across an axis, as rounding takes it: some that were asked for, each in the place of its number's lowest bits. */
+enum { QN_FLAT_BITS = 8, QN_FLAT_NONE = 3, QN_FLAT_BALL = 4 };
+typedef struct qn_span_flat { double place[2]; uint32_t surface, axis; } qn_span_flat; /* place: scene/rounding.h; surface: QUOIN_NO_SURFACE where there is none; axis: or QN_FLAT_BALL of a sphere, QN_FLAT_NONE of what else is no such plane */
 typedef struct qn_packet_spans {
   double *ends;          /* aligned to 64 */
   qn_span_slot *slots;   /* slot s of group g is slots[g capacity + s] */
@@ -112,6 +115,7 @@ typedef struct qn_packet_spans {
   uint64_t merged;
   qn_span_plan *plans;  /* 1 << QN_PLAN_BITS of them, kept from packet to packet of one scene; null: none */
   uint32_t *gate_count; /* with plans: for each gate of the program its `base`, before and after */
+  qn_span_flat *flats;  /* 1 << QN_FLAT_BITS of them, kept likewise */
   uint64_t *pending; /* by row, of the first `rows`: the lanes whose t is to be rounded yet (qn_round_rows_fn) */
   uint32_t rows;
 } qn_packet_spans;
@@ -126,7 +130,7 @@ typedef void (*qn_round_rows_fn)(const struct quoin_scene *scene, const qn_packe
 
 /* Which part and role a payload is: some that were asked for, by hash. */
 typedef struct qn_span_role { uint64_t name; double word; } qn_span_role; /* a payload without QN_SPAN_LARGER, or QN_SPAN_CUT for none; a quoin_end's bits after its t */
-enum { QN_SPAN_ROLE_BITS = 8 };
+enum { QN_SPAN_ROLE_BITS = 9 };
 /* The rows of lane i become the intervals from out + first[i] on. */
 typedef void (*qn_write_rows_fn)(const struct quoin_scene *scene, const qn_packet_spans *spans, qn_span_role known[1 << QN_SPAN_ROLE_BITS], const uint32_t first[QN_LANES],
                                  quoin_interval *out);

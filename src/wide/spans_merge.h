@@ -96,7 +96,7 @@ static QN_NOINLINE void add_cut(merging *m, int i, double a, double pa, double b
   out->row_count[lane] += 2;
 }
 
-/* A stretch [a, b] of the solid in each lane of `which`. fresh: it is the first of each lane. */
+/* A stretch [a, b] of the solid in each lane of `which`. fresh: it is the first of each lane. What a meet has left of it are mostly not as many in all lanes. */
 QN_INLINE void add_stretch_to(merging *m, int fresh, vm which, vd a, vd pa, vd b, vd pb) {
   const int o = m->group * QN_W;
   const qn_packet *p = m->w->f.p;
@@ -106,8 +106,8 @@ QN_INLINE void add_stretch_to(merging *m, int fresh, vm which, vd a, vd pa, vd b
   vm whole = vand(vand(clearly_before(m, vload(p->from + o), a), clearly_before(m, b, vload(p->to + o))),
                   vand(vle(vabs(a), reach), vle(vabs(b), reach)));
   unsigned clear = bits & vbits(whole);
-  uint32_t *counts = out->row_count + o, differ = 0;
-  for (unsigned i = 1; !fresh && i < QN_W; i++) {
+  uint32_t *counts = out->row_count + o, differ = !fresh && m->meet;
+  for (unsigned i = 1; !fresh && !differ && i < QN_W; i++) {
     differ |= counts[i] ^ counts[0];
   }
   if (!differ && clear == bits) { /* what is left in other lanes is written over, or is past their rows */

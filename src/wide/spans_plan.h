@@ -293,10 +293,11 @@ static unsigned plan_group_rows(merging *m, const qn_span_slot *slot, uint32_t s
 
 /* Rows for all groups; out->merged: the lanes that they answer. */
 static QN_NOINLINE void plan_groups(const walk *w, qn_packet_spans *out) {
-  planning p = {.scene = w->scene, .count = out->gate_count};
+  planning p; /* large, and filled in group by group */
+  p.scene = w->scene, p.count = out->gate_count, p.leaves = 0;
   for (int g = 0; g < QN_GROUPS; g++) {
     merging m;
-    m.w = w, m.out = out, m.ends = out->ends + (size_t)g * out->capacity * SLOT_DOUBLES, m.group = g, m.left = 0;
+    m.w = w, m.out = out, m.ends = out->ends + (size_t)g * out->capacity * SLOT_DOUBLES, m.group = g, m.meet = 1, m.left = 0; /* lanes have rows of their own */
     m.tolerance = vload(w->tolerance + g * QN_W);
     const unsigned in = (unsigned)((w->f.p->live & ~w->unsure) >> (g * QN_W)) & QN_ALL_BITS;
     const unsigned left = out->count[g] ? plan_group_rows(&m, out->slots + (size_t)g * out->capacity, out->count[g], in, &p) : 0;

@@ -26,6 +26,7 @@ typedef struct rounding_rows {
   const struct quoin_scene *scene;
   const qn_packet *packet;
   const double *tolerance;
+  qn_span_flat *flats;
   uint64_t *made;
   int planes, balls; /* whether there may be any */
   uint32_t one;      /* the leaf that is in all lanes of `ball`, or UINT32_MAX */
@@ -80,49 +81,60 @@ QN_INLINE unsigned row_on_balls(const rounding_rows *r, double *t, int at, unsig
 
 /* --- planes across an axis --------------------------------------------------------------------------------------------- */
 
-QN_INLINE unsigned row_on_plane(const qn_rounding *of, const qn_packet *packet, double *t, int at, unsigned on) {
-  const int axis = of->axis[0];
+/* A sphere's exact form is not asked for. */
+static QN_NOINLINE void see_flat(const rounding_rows *r, uint32_t surface, uint32_t leaf, qn_span_flat *f) {
+  if (r->balls && sphere_of(r->scene, leaf)) {
+    *f = (qn_span_flat){{0, 0}, surface, QN_FLAT_BALL};
+    return;
+  }
+  const qn_rounding *of = qn_scene_rounding(r->scene, surface, r->made);
+  const int flat = of && of->kind == QN_ROUNDING_AXIS;
+  *f = (qn_span_flat){{flat ? of->place[0] : 0, flat ? of->place[1] : 0}, of ? surface : QUOIN_NO_SURFACE, flat ? of->axis[0] : (uint32_t)QN_FLAT_NONE};
+}
+
+QN_INLINE const qn_span_flat *flat_of(const rounding_rows *r, uint64_t name) {
+  const uint32_t surface = (uint32_t)name;
+  qn_span_flat *f = &r->flats[surface & ((1u << QN_FLAT_BITS) - 1)];
+  if (QN_UNLIKELY(f->surface != surface)) {
+    see_flat(r, surface, (uint32_t)(name >> 32) & QN_SPAN_LEAF, f);
+  }
+  return f;
+}
+
+/* All lanes on one plane: rounds those of `on` that it can; returns the others. */
+QN_INLINE unsigned row_on_plane(const rounding_rows *r, const qn_span_flat *f, double *t, int at, unsigned on) {
+  const uint32_t axis = f->axis;
+  const qn_packet *packet = r->packet;
   vd out;
-  const unsigned sure = flat_round(vset(of->place[0]), vset(of->place[1]), vload(packet->o[axis] + at), vload(packet->d[axis] + at), vload(packet->inv[axis] + at), &out) & on;
+  const unsigned sure = flat_round(vset(f->place[0]), vset(f->place[1]), vload(packet->o[axis] + at), vload(packet->d[axis] + at), vload(packet->inv[axis] + at), &out) & on;
   vstore(t, vpick(vmask(sure), out, vload(t)));
   return on & ~sure;
 }
 
-/* Lanes on surfaces of their own: rounds those of `active` that it can; returns the others. */
-static unsigned row_on_planes(const rounding_rows *r, double *t, const double *names, int at, unsigned active) {
+QN_INLINE vd of_axes(const double from[3][QN_LANES], int at, uint64_t on) {
+  return vpick(vmask((unsigned)on & QN_ALL_BITS), vload(from[0] + at), vpick(vmask((unsigned)(on >> 8) & QN_ALL_BITS), vload(from[1] + at), vload(from[2] + at)));
+}
+
+/* Lanes on surfaces of their own: rounds those of `active` that it can; returns the others. *balls: those on spheres. */
+QN_INLINE unsigned row_on_planes(const rounding_rows *r, double *t, const double *names, int at, unsigned active, unsigned *balls) {
   const qn_packet *packet = r->packet;
-  const qn_rounding *of[QN_W], *any = NULL;
-  unsigned flat = 0, axes = 0;
-  for (unsigned m = active; m; m &= m - 1) {
-    const unsigned i = qn_trailing_zeros(m);
+  _Alignas(64) double high[QN_W], low[QN_W], ends[QN_W];
+  uint64_t on = 0; /* by axis, eight bits each */
+  vstore(ends, vpick(vmask(active), vload(names), vset(names[qn_trailing_zeros(active)])));
+  for (unsigned i = 0; i < QN_W; i++) {
     uint64_t name;
-    memcpy(&name, &names[i], sizeof name);
-    of[i] = qn_scene_rounding(r->scene, (uint32_t)name, r->made);
-    if (of[i] && of[i]->kind == QN_ROUNDING_AXIS) {
-      any = of[i], flat |= 1u << i, axes |= 1u << of[i]->axis[0];
-    }
+    memcpy(&name, &ends[i], sizeof name);
+    const qn_span_flat *f = flat_of(r, name);
+    high[i] = f->place[0], low[i] = f->place[1];
+    on |= (uint64_t)1 << (8 * f->axis + i);
   }
+  *balls = active & (unsigned)(on >> (8 * QN_FLAT_BALL));
+  const unsigned flat = active & (unsigned)(on | on >> 8 | on >> 16);
   if (!flat) {
     return active;
   }
-  const double *place[QN_W];
-  for (unsigned i = 0; i < QN_W; i++) {
-    of[i] = flat >> i & 1 ? of[i] : any;
-    place[i] = of[i]->place;
-  }
-  vd o, d, inverse, out;
-  if (axes & (axes - 1)) {
-    const double *os[QN_W], *ds[QN_W], *is[QN_W];
-    for (unsigned i = 0; i < QN_W; i++) {
-      const int axis = of[i]->axis[0], from = at + (int)i;
-      os[i] = packet->o[axis] + from, ds[i] = packet->d[axis] + from, is[i] = packet->inv[axis] + from;
-    }
-    o = vcollect(os, 0), d = vcollect(ds, 0), inverse = vcollect(is, 0);
-  } else {
-    const int axis = any->axis[0];
-    o = vload(packet->o[axis] + at), d = vload(packet->d[axis] + at), inverse = vload(packet->inv[axis] + at);
-  }
-  const unsigned sure = flat_round(vcollect(place, 0), vcollect(place, 1), o, d, inverse, &out) & flat;
+  vd out;
+  const unsigned sure = flat_round(vload(high), vload(low), of_axes(packet->o, at, on), of_axes(packet->d, at, on), of_axes(packet->inv, at, on), &out) & flat;
   vstore(t, vpick(vmask(sure), out, vload(t)));
   return active & ~sure;
 }
@@ -132,15 +144,27 @@ static unsigned row_on_planes(const rounding_rows *r, double *t, const double *n
 /* Row j of a group where not all lanes end on one surface. */
 static QN_NOINLINE unsigned row_of_many(rounding_rows *r, double *t, const double *names, int at, unsigned active) {
   active &= ~vbits(vsame(vload(names), vset(payload_cut()), UINT64_MAX));
-  if (r->balls && active) {
+  unsigned balls = r->balls ? active : 0;
+  if (r->planes && active) {
+    active = row_on_planes(r, t, names, at, active, &balls);
+  }
+  if (balls) {
     const unsigned known = r->in | r->not_in, same = vbits(vsame(vload(names), r->leaves, (uint64_t)QN_SPAN_LEAF << 32));
-    if ((active & known & same) != active) {
-      see_balls(r, names, active);
+    if ((balls & known & same) != balls) {
+      see_balls(r, names, balls);
     }
-    const unsigned on = active & r->in;
+    const unsigned on = balls & r->in;
     active = (active & ~on) | (on ? row_on_balls(r, t, at, on) : 0);
   }
-  return r->planes && active ? row_on_planes(r, t, names, at, active) : active;
+  return active;
+}
+
+/* All lanes on one leaf, which may be a sphere. */
+QN_INLINE unsigned row_on_ball(rounding_rows *r, uint32_t leaf, double *t, int at, unsigned active) {
+  if (leaf != r->one) {
+    see_one_ball(r, leaf);
+  }
+  return r->one_is_ball ? row_on_balls(r, t, at, active) : active;
 }
 
 /* Row j of a group: rounds what it can of the lanes in `active`; returns the others that lie on a surface. */
@@ -151,22 +175,12 @@ QN_INLINE unsigned row_of_group(rounding_rows *r, double *t, const double *names
   if (QN_UNLIKELY((active & ~vbits(vsame(vload(names), vset(first), UINT64_MAX))) || name == QN_SPAN_CUT)) {
     return row_of_many(r, t, names, at, active);
   }
-  if (r->balls) {
-    const uint32_t leaf = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
-    if (leaf != r->one) {
-      see_one_ball(r, leaf);
-    }
-    if (r->one_is_ball) {
-      return row_on_balls(r, t, at, active);
-    }
+  const uint32_t leaf = (uint32_t)(name >> 32) & QN_SPAN_LEAF;
+  if (!r->planes) {
+    return r->balls ? row_on_ball(r, leaf, t, at, active) : active;
   }
-  if (r->planes) {
-    const qn_rounding *of = qn_scene_rounding(r->scene, (uint32_t)name, r->made);
-    if (of && of->kind == QN_ROUNDING_AXIS) {
-      return row_on_plane(of, r->packet, t, at, active);
-    }
-  }
-  return active;
+  const qn_span_flat *f = flat_of(r, name);
+  return f->axis < QN_FLAT_NONE ? row_on_plane(r, f, t, at, active) : f->axis == QN_FLAT_BALL ? row_on_ball(r, leaf, t, at, active) : active;
 }
 
 /* The lanes of a group that have a row j. */
@@ -236,7 +250,7 @@ static void round_row(const struct quoin_scene *scene, const qn_packet *packet, 
 void QN_OF_ISA(qn_round_rows)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made);
 void QN_OF_ISA(qn_round_rows)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made) {
   const int exact = packet->tile != QN_TILE_PAIRS;
-  rounding_rows r = {.scene = scene, .packet = packet, .tolerance = spans->tolerance, .made = made, .planes = exact && scene->plane_count > 0,
+  rounding_rows r = {.scene = scene, .packet = packet, .tolerance = spans->tolerance, .flats = spans->flats, .made = made, .planes = exact && scene->plane_count > 0,
                      .balls = exact && scene->quadric_count > 0, .one = UINT32_MAX};
   qn_packet_hits hits;
   uint64_t some = 0;

@@ -14,7 +14,12 @@ QN_INLINE double word_of(uint32_t part, uint32_t role) {
   return word;
 }
 
-static QN_NOINLINE void find_role(const struct quoin_scene *scene, uint64_t key, qn_span_role *at) {
+/* What was not among those known. A place where the range ends is nobody's, and no negative zero. */
+static QN_NOINLINE double find(const struct quoin_scene *scene, uint64_t key, qn_span_role *at, double *t) {
+  if (key == (QN_SPAN_CUT & ~QN_SPAN_LARGER)) {
+    *t = *t == 0 ? 0 : *t;
+    return word_of(QUOIN_NO_PART, QUOIN_BODY);
+  }
   const uint32_t part = (uint32_t)(key >> 32) & QN_SPAN_LEAF;
   const qn_leaf *leaf = &scene->leaves[part];
   const qn_half *half = &scene->halves[leaf->half0];
@@ -22,48 +27,35 @@ static QN_NOINLINE void find_role(const struct quoin_scene *scene, uint64_t key,
     half++;
   }
   *at = (qn_span_role){key, word_of(part, half->role)};
+  return at->word;
 }
 
 /* What a payload is in an interval, beside its place. Which face of a box it is cannot be guessed, so that some are kept. */
-QN_INLINE double named(const struct quoin_scene *scene, qn_span_role *known, double payload) {
+QN_INLINE double named(const struct quoin_scene *scene, qn_span_role *known, double payload, double *t) {
   uint64_t name;
   memcpy(&name, &payload, sizeof name);
   const uint64_t key = name & ~QN_SPAN_LARGER;
   qn_span_role *at = &known[key * 0x9e3779b97f4a7c15u >> (64 - QN_SPAN_ROLE_BITS)];
-  if (QN_UNLIKELY(at->name != key)) {
-    find_role(scene, key, at);
-  }
-  return at->word;
+  return QN_LIKELY(at->name == key) ? at->word : find(scene, key, at, t);
 }
 
-/* The lanes of `active` one by one: some are named otherwise, or lie where the range ends. */
-static QN_NOINLINE void lane_words(const struct quoin_scene *scene, qn_span_role *known, const double *names, unsigned active, double t[QN_W], double words[QN_W]) {
-  for (; active; active &= active - 1) {
-    const unsigned i = qn_trailing_zeros(active);
+/* Rows of one name in all lanes of a group, as long as there are such, up to row `least`. Returns where they end; *t, *names: that row. */
+QN_INLINE uint32_t write_alike(const struct quoin_scene *scene, qn_span_role *known, uint32_t least, const double **t, const double **names, double *to[QN_W]) {
+  uint32_t j = 0;
+  for (; j < least; j++, *t += QN_LANES, *names += QN_LANES) {
+    const double first = **names;
     uint64_t name;
-    memcpy(&name, &names[i], sizeof name);
-    if (name == QN_SPAN_CUT) {
-      words[i] = word_of(QUOIN_NO_PART, QUOIN_BODY), t[i] = t[i] == 0 ? 0 : t[i]; /* no negative zero */
-    } else {
-      words[i] = named(scene, known, names[i]);
+    memcpy(&name, &first, sizeof name);
+    if (vbits(vsame(vload(*names), vset(first), ~QN_SPAN_LARGER)) != QN_ALL_BITS || name == QN_SPAN_CUT) {
+      break;
+    }
+    double unused = 0;
+    vdeal(vload(*t), vset(named(scene, known, first, &unused)), to);
+    for (unsigned i = 0; i < QN_W; i++) {
+      to[i] += 2;
     }
   }
-}
-
-/* Row j of a group, which the lanes of `active` have: their ends, to where they go. */
-QN_INLINE void write_row(const struct quoin_scene *scene, qn_span_role *known, const double *row_t, const double *names, unsigned active, double *const to[QN_W]) {
-  const double first = names[qn_trailing_zeros(active)];
-  const vd t = vload(row_t);
-  uint64_t name;
-  memcpy(&name, &first, sizeof name);
-  if (QN_LIKELY(!(active & ~vbits(vsame(vload(names), vset(first), ~QN_SPAN_LARGER))) && name != QN_SPAN_CUT)) {
-    vdeal(t, vset(named(scene, known, first)), to);
-  } else {
-    _Alignas(64) double places[QN_W], words[QN_W] = {0};
-    vstore(places, t);
-    lane_words(scene, known, names, active, places, words);
-    vdeal(vload(places), vload(words), to);
-  }
+  return j;
 }
 
 void QN_OF_ISA(qn_write_rows)(const struct quoin_scene *scene, const qn_packet_spans *spans, qn_span_role *known, const uint32_t first[QN_LANES], quoin_interval *out);
@@ -78,25 +70,17 @@ void QN_OF_ISA(qn_write_rows)(const struct quoin_scene *scene, const qn_packet_s
       continue;
     }
     const double *t = spans->row_t + at, *names = spans->row_name + at;
-    double nowhere[2], *to[QN_W]; /* where the end of row j goes */
+    double *to[QN_W]; /* where the end of row j goes */
     for (unsigned i = 0; i < QN_W; i++) {
       to[i] = (double *)(void *)(out + first[at + (int)i]);
     }
-    for (uint32_t j = 0; j < least; j++, t += QN_LANES, names += QN_LANES) {
-      write_row(scene, known, t, names, QN_ALL_BITS, to);
-      for (unsigned i = 0; i < QN_W; i++) {
-        to[i] += 2;
-      }
-    }
-    for (uint32_t j = least; j < most; j++, t += QN_LANES, names += QN_LANES) {
-      unsigned active = 0;
-      for (unsigned i = 0; i < QN_W; i++) {
-        active |= (unsigned)(j < count[i]) << i;
-        to[i] = j < count[i] ? to[i] : nowhere;
-      }
-      write_row(scene, known, t, names, active, to);
-      for (unsigned i = 0; i < QN_W; i++) {
-        to[i] += j < count[i] ? 2 : 0;
+    const uint32_t begin = write_alike(scene, known, least, &t, &names, to);
+    for (unsigned i = 0; begin < most && i < QN_W; i++) {
+      const double *place = t + i, *name = names + i;
+      double *end = to[i];
+      for (uint32_t j = begin; j < count[i]; j++, place += QN_LANES, name += QN_LANES, end += 2) {
+        end[0] = *place;
+        end[1] = named(scene, known, *name, end);
       }
     }
   }

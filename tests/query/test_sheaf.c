@@ -403,6 +403,49 @@ static void skew_cylinder(void **state) {
   ask_close(&a);
 }
 
+/* More planes than rounding keeps at hand, more names than writing does, spheres among them; rays that begin in solids and in between. */
+static void many_surfaces(void **state) {
+  (void)state;
+  enum { SIDE = 7, RAYS = 40 };
+  static char text[16384];
+  size_t n = 0;
+  for (int i = 0; i < SIDE * SIDE * SIDE; i++) {
+    const int x = i % SIDE, y = i / SIDE % SIDE, z = i / SIDE / SIDE;
+    if ((x + y + z) % 2) {
+      continue;
+    }
+    n += (size_t)snprintf(text + n, sizeof text - n, "translate([%d.%d,%d.%d,%d.%d])%s", 3 * x, y, 3 * y, z, 3 * z, x, i % 8 ? "cube([1.7,1.9,1.3]);\n" : "sphere(r=1.1);\n");
+    assert_true(n < sizeof text);
+  }
+  ask a;
+  ask_open(&a, text);
+  assert_true(a.scene->surface_count > 1u << QN_FLAT_BITS && 5 * a.scene->leaf_count > 1u << QN_SPAN_ROLE_BITS);
+  const quoin_grid grid = {.o = {-4, -2, -3}, .u = {9, 14, 0}, .v = {-4, 6, 16}, .d = {0.9, 0.31, 0.17}, .width = RAYS, .height = RAYS, .from = 4, .to = 19};
+  size_t stretches = 0;
+  for (size_t k = 0; k < isa_count; k++) {
+    quoin_work *work = work_on(k, a.scene);
+    quoin_grid_answer all;
+    assert_int_equal(quoin_grid_intervals(a.scene, work, &grid, 0, 0, RAYS, RAYS, 0, &all), QUOIN_OK);
+    for (size_t i = 0; i < all.rays; i++) {
+      const double s = ((double)(i % RAYS) + 0.5) / RAYS, r = ((double)(i / RAYS) + 0.5) / RAYS; /* NOLINT(bugprone-integer-division): its column and row */
+      quoin_ray ray = {.d = {grid.d[0], grid.d[1], grid.d[2]}, .from = grid.from, .to = grid.to};
+      for (int j = 0; j < 3; j++) {
+        ray.o[j] = grid.o[j] + s * grid.u[j] + r * grid.v[j];
+      }
+      weave_ray(&a, &ray, &want[0]);
+      const quoin_run in = all.inside_of[i];
+      stretches += in.count;
+      if (!same(in.count, all.inside + in.first, want[0].count, want[0].inside)) {
+        blame(text, isas[k], 0, 0, &ray, &want[0], in.count, all.inside + in.first);
+      }
+    }
+    quoin_work_free(work);
+  }
+  assert_true(stretches > 1000 * isa_count);
+  ask_close(&a);
+  assert_int_equal(failures, 0);
+}
+
 static void barely_longer(void **state) {
   (void)state;
   static const char text[] = "translate([-3,0,5]) difference() {\n"
@@ -528,7 +571,7 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : (size_t)share_of((int)model_count);
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   find_isas();
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names), cmocka_unit_test(plans), cmocka_unit_test(skew_cylinder),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_rays), cmocka_unit_test(long_rays), cmocka_unit_test(deep_program), cmocka_unit_test(flush_names), cmocka_unit_test(plans), cmocka_unit_test(skew_cylinder), cmocka_unit_test(many_surfaces),
                                      cmocka_unit_test(barely_longer), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
