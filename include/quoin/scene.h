@@ -22,6 +22,7 @@ QUOIN_API quoin_compile_options quoin_compile_options_default(void);
 /* Compiles a model: finds equal surfaces, simplifies, bounds, builds the hierarchy. The model is frozen from then on;
    it may be freed before the scene. Warnings are added to the model's diagnostics. options may be null.
    QUOIN_E_MODEL: the model has errors. QUOIN_E_NUMBER, QUOIN_E_ARGUMENT: `snap` is not a decimal, or is negative.
+   QUOIN_E_LIMIT: too much of something, also of surfaces near one another for `snap` (a diagnostic says so).
    Cost: n log n in the number of leaves; with `snap` about three times that. */
 QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compile_options *options, quoin_scene **out);
 QUOIN_API void quoin_scene_free(quoin_scene *scene); /* null is allowed; every quoin_work of it must be freed first */

@@ -11,8 +11,11 @@
    planes are in cells of d: at c the standing plane must pass within T of the other, which says what its d is.
 
    Curved surfaces: equal quadratic parts have equal f = (w.A)^2 / A.A; their centres (of cylinders: the nearest place of the axis to O; of
-   paraboloids: the vertex) are no further apart than the gap. Cells of f and of the centre; a surface whose centre is less well known is in
-   wider cells, at a level of its own, and all ask at all levels from their own up.
+   paraboloids: the vertex) are no further apart than the gap. With e = q(centre) the radius is R = sqrt(|e| / |A|), for paraboloids 0: no point of the
+   surface is nearer to the centre (the axis), since |u'Au| <= |A| |u|^2. The gap is at least |R2 / R1 - 1| times the distance of the farthest corner of the smaller
+   one's region, or, of spheres and round cylinders, times r1 >= R1; so |R1 - R2| <= T where that corner is no nearer than R1, as it is where
+   the region holds any of the surface. Cells of f, of the centre and of R; a surface whose centre or R is less well known is in wider cells, at a level of its own, and
+   all ask at all levels from their own up.
 
    Every number here is a double with a bound of its error in the filter; none of them decides. */
 #include "scene/near_parts.h"
@@ -22,9 +25,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many candidates are compared, in doubles and exactly (weighed: some 3 us each; concentric spheres all meet here), before the search for all pairs is cut, and
-   how many pairs are kept. A search for a snap is never cut. */
-enum { COMPARED = 1 << 26, COMPARED_EXACTLY = 1 << 19, KEPT = 1 << 18, COMPARED_USERS = 4096 };
+/* How many candidates are compared, in doubles (some 15 ns each) and exactly (weighed: some 3 us each), and as many for each surface, before the search for all pairs is
+   cut, and how many pairs are kept. A search for a snap is refused when it compares more; of exact comparisons it counts those in vain: each surface is then moved
+   by one that is not, and what comes near without being so is a model made of that (surfaces of 10,000 shapes that doubles do not tell apart). */
+enum { COMPARED = 1 << 25, COMPARED_EACH = 256, SNAP_EACH = 1024, COMPARED_EXACTLY = 1 << 19, SNAP_EXACTLY_EACH = 64, KEPT = 1 << 18, COMPARED_USERS = 4096 };
 
 static int is_aligned(const qn_exact_surface *plane) {
   return (qn_int_sign(plane->q[6]) != 0) + (qn_int_sign(plane->q[7]) != 0) + (qn_int_sign(plane->q[8]) != 0) == 1;
@@ -69,8 +73,21 @@ static int users_close(qn_near_finder *f, uint32_t x, uint32_t y, uint32_t leaf[
 }
 
 static int by_number(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  uint32_t x = ((const qn_near_candidate *)a)->what, y = ((const qn_near_candidate *)b)->what;
   return (x > y) - (x < y);
+}
+static int by_least(const void *a, const void *b) {
+  const qn_near_candidate *x = a, *y = b;
+  return x->least != y->least ? (x->least > y->least) - (x->least < y->least) : by_number(a, b);
+}
+
+/* More was compared than is due to so many surfaces. */
+static int is_too_much(const qn_near_finder *f) {
+  size_t n = f->scene->surface_count;
+  if (f->want == QN_NEAR_ALL) {
+    return f->compared > COMPARED + COMPARED_EACH * n || f->compared_exactly >= COMPARED_EXACTLY;
+  }
+  return f->compared > COMPARED + SNAP_EACH * n || f->compared_exactly > COMPARED_EXACTLY + SNAP_EXACTLY_EACH * n;
 }
 
 static quoin_status keep(qn_near_finder *f, const qn_near_pair *pair) {
@@ -105,23 +122,23 @@ static quoin_status compare(qn_near_finder *f, uint32_t i, int *stands) {
   qn_near_pair best = {.small = i, .stands = QN_NEAR_NONE};
   quoin_status status = QUOIN_OK;
   if (f->found_count > 1) {
-    qsort(f->found, f->found_count, sizeof *f->found, by_number);
+    qsort(f->found, f->found_count, sizeof *f->found, f->want == QN_NEAR_ALL ? by_number : by_least);
   }
   for (size_t k = 0; k < f->found_count && status == QUOIN_OK && !f->out->cut; k++) {
-    uint32_t other = f->found[k], leaf[2] = {f->scene->surfaces[i].leaf, f->scene->surfaces[other].leaf};
-    if ((k && other == f->found[k - 1]) || (f->want == QN_NEAR_ALL && !users_close(f, i, other, leaf))) {
+    uint32_t other = f->found[k].what, leaf[2] = {f->scene->surfaces[i].leaf, f->scene->surfaces[other].leaf};
+    if (f->want == QN_NEAR_SNAP && best.stands != QN_NEAR_NONE && f->found[k].least > best.gap) {
+      break; /* its gap, rounded, is at least that, and so above the best one rounded */
+    }
+    if ((k && other == f->found[k - 1].what) || (f->want == QN_NEAR_ALL && !users_close(f, i, other, leaf))) {
       continue;
     }
     const qn_exact_surface *x = qn_scene_exact(f->scene, i, NULL), *y = qn_scene_exact(f->scene, other, NULL);
     if (!x || !y) {
       return qn_scene_no_exact(f->scene, x ? other : i);
     }
-    if (f->want == QN_NEAR_ALL) {
-      if (f->compared_exactly >= COMPARED_EXACTLY) {
-        f->out->cut = 1;
-        break;
-      }
-      f->compared_exactly += weight_of(x, y);
+    if (is_too_much(f)) {
+      f->out->cut = 1;
+      break;
     }
     qn_mark mark = qn_arena_mark(&f->ctx.arena);
     qn_num gap;
@@ -129,6 +146,7 @@ static quoin_status compare(qn_near_finder *f, uint32_t i, int *stands) {
     qn_near_pair pair = {i, other, {leaf[0], leaf[1]}, (int8_t)turn, near ? qn_num_to_double(gap) : 0, near ? exactly(f, gap) : ""};
     qn_arena_release(&f->ctx.arena, mark);
     status = f->ctx.failed;
+    f->compared_exactly += f->want == QN_NEAR_ALL || !near ? weight_of(x, y) : 0;
     if (near && status == QUOIN_OK && f->want == QN_NEAR_ALL) {
       status = keep(f, &pair);
     }
@@ -139,6 +157,9 @@ static quoin_status compare(qn_near_finder *f, uint32_t i, int *stands) {
     }
   }
   *stands = best.stands == QN_NEAR_NONE;
+  if (status == QUOIN_OK && f->out->cut && f->want == QN_NEAR_SNAP) {
+    return QUOIN_E_LIMIT;
+  }
   return status == QUOIN_OK && f->want == QN_NEAR_SNAP && !*stands ? keep(f, &best) : status;
 }
 
@@ -150,9 +171,9 @@ static quoin_status take(qn_near_finder *f, uint32_t i) {
   }
   f->found_count = 0;
   int good = 1;
-  if (f->want == QN_NEAR_ALL && (f->out->cut || f->compared > COMPARED)) {
+  if (f->out->cut || is_too_much(f)) {
     f->out->cut = 1;
-    return QUOIN_OK;
+    return f->want == QN_NEAR_ALL ? QUOIN_OK : QUOIN_E_LIMIT;
   }
   if (it->kind == QN_NEAR_PLANE) {
     /* where boxes told all that is near at an angle, only parallel planes are left, which for a snap may be anywhere */
@@ -196,7 +217,9 @@ quoin_status qn_near_find(const quoin_scene *scene, qn_num limit, qn_near_want w
     qsort(out->items, out->count, sizeof *out->items, by_small);
   }
   if (status != QUOIN_OK) {
+    int cut = out->cut;
     qn_near_pairs_free(out, scene->mem);
+    out->cut = cut;
   }
   return status;
 }

@@ -33,7 +33,7 @@ typedef struct qn_near_pairs {
   qn_near_pair *items;
   size_t count, capacity;
   qn_arena texts;
-  int cut; /* not all pairs were looked at, or kept */
+  int cut; /* not all pairs were looked at, or kept; of a search for a snap, it was refused */
 } qn_near_pairs;
 
 typedef enum qn_near_want {
@@ -41,7 +41,7 @@ typedef enum qn_near_want {
   QN_NEAR_SNAP  /* for each surface that has a standing one within the limit, the nearest of these; those without stand themselves */
 } qn_near_want;
 
-/* n log n for scenes in which few surfaces are near many. Threads: one. */
+/* n log n, and bounded by n times a constant in all: then *out is cut, and a search for a snap is QUOIN_E_LIMIT. Threads: one. */
 QN_NODISCARD quoin_status qn_near_find(const quoin_scene *scene, qn_num limit, qn_near_want want, qn_near_pairs *out);
 void qn_near_pairs_free(qn_near_pairs *pairs, qn_mem *mem);
 

@@ -40,6 +40,40 @@ static int invert(double row[3][4], double inverse[3][3]) {
   return fabs(det) > QN_NEAR_FLAT; /* of unit rows */
 }
 
+/* The radius of a curved surface (near.c), with X2 at its centre, l and s2 of unit rows, A = |quadratic part|, w its axis when it is a cylinder, off_axis
+   the error of that. */
+static void look_at_radius(const qn_near_finder *f, const qn_quadric_shadow *q, double s2, double l, double X2, double A, double magnitude, const double *w,
+                           double off_axis, qn_near_item *it) {
+  double e = s2 != 0 || l == 0 ? q->k + l * X2 : 0, off = s2 != 0 || l == 0 ? QN_NEAR_NORMAL * (fabs(q->k) + fabs(l * X2)) : 0;
+  double least = 0, far2 = 0;
+  it->radius = sqrt(fabs(e)) / sqrt(A);
+  /* |sqrt a - sqrt b| is at most sqrt |a - b|, and |a - b| / sqrt a */
+  it->error += QN_NEAR_PLACE * it->radius * (magnitude / A) + (off > 0 ? fmin(sqrt(off / A), off / (it->radius * A)) : 0);
+  it->reach = f->most;
+  for (int which = 0; which < 8; which++) { /* the region's corner farthest from the centre, across the axis */
+    double y[3], square = 0, size2 = 0, along = 0, w2 = 0;
+    for (int k = 0; k < 3; k++) {
+      y[k] = (which >> k & 1 ? it->region.max[k] : it->region.min[k]) - f->origin[k] - it->n[k];
+      size2 += y[k] * y[k];
+      along += w ? y[k] * w[k] : 0;
+      w2 += w ? w[k] * w[k] : 0;
+    }
+    for (int k = 0; k < 3; k++) {
+      double across = y[k] - (w ? along / w2 * w[k] : 0);
+      square += across * across;
+    }
+    least = fmax(least, sqrt(square));
+    far2 = fmax(far2, size2);
+  }
+  least -= it->error + off_axis * sqrt(far2);
+  if (isfinite(far2) && !(least >= it->radius)) { /* the region does not come to the surface, or hardly */
+    it->reach = least > 0 ? f->most * (it->radius / least) : INFINITY;
+  }
+  if (!isfinite(it->reach)) {
+    it->reach = INFINITY; /* unlike what is not a number */
+  }
+}
+
 static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_quadric_shadow *q, qn_near_item *it) {
   static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   static const double weight[6] = {0.7548776662466927, 0.5698402909980532, 0.8191725133961644, 0.6710436067037893, 0.5497004779019703, 0.9318321442141524};
@@ -96,7 +130,8 @@ static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_
   for (int i = 0; i < 9; i++) {
     most = fmax(most, fabs(inverse[i / 3][i % 3]));
   }
-  it->error = 4 * QN_NEAR_PLACE * (most < 2 ? 1 : 1 / QN_NEAR_FLAT) * size; /* below 2: rows nearly orthogonal, the usual thing */
+  const double off = 4 * QN_NEAR_PLACE * (most < 2 ? 1 : 1 / QN_NEAR_FLAT); /* below 2: rows nearly orthogonal, the usual thing */
+  it->error = off * size;
   double A2 = 0, wA = 0, magnitude = 0;
   for (int c = 0; c < 6; c++) {
     double a = 0;
@@ -109,7 +144,9 @@ static void look_at_body(const qn_near_finder *f, const qn_leaf *leaf, const qn_
     wA += weight[c] * a;
   }
   it->d = wA * wA / A2;
-  if (isfinite(it->error) && isfinite(it->d) && QN_NEAR_FLAT * magnitude < sqrt(A2)) {
+  const double w[3] = {inverse[0][2], inverse[1][2], inverse[2][2]};
+  look_at_radius(f, q, s[2], l, X[2], sqrt(A2), magnitude, axis ? w : NULL, 2 * off, it);
+  if (isfinite(it->error) && isfinite(it->d) && isfinite(it->radius) && QN_NEAR_FLAT * magnitude < sqrt(A2)) {
     it->kind = QN_NEAR_CURVED;
   }
 }

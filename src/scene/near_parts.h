@@ -11,6 +11,8 @@
 
 /* Levels of cells: of normals 2^-6 to 2^-36 wide by steps of 2^-3; of centres by steps of 2^4. */
 enum { QN_NEAR_LEVELS = 11, QN_NEAR_CENTRE_LEVELS = 16 };
+/* Leaves that a plane's box meets at most where these are looked through. */
+enum { QN_NEAR_FEW_MET = 64 };
 /* Widths of cells of f, and of the normals of one group. */
 #define QN_NEAR_SHAPE_CELL 0x1p-20
 #define QN_NEAR_GROUP_CELL 0x1p-40
@@ -20,8 +22,9 @@ typedef enum qn_near_kind { QN_NEAR_NOT, QN_NEAR_PLANE, QN_NEAR_CURVED } qn_near
 typedef struct qn_near_item {
   qn_region region;
   double size;
-  double n[3], d; /* of a plane; of a curved surface its centre and f */
-  double error;   /* of d, of the centre */
+  double n[3], d;       /* of a plane; of a curved surface its centre and f */
+  double radius, reach; /* of a curved surface: how large it is, and how far another's radius may be from that */
+  double error;         /* of d; of the centre and the radius */
   uint8_t kind, level, indexed;
 } qn_near_item;
 
@@ -34,6 +37,9 @@ typedef struct qn_near_table {
 } qn_near_table;
 
 typedef struct qn_near_group { double n[3]; uint32_t first; } qn_near_group;
+
+/* A surface that doubles propose, and what its gap is at least. */
+typedef struct qn_near_candidate { double least; uint32_t what; } qn_near_candidate;
 
 typedef struct qn_near_finder {
   const quoin_scene *scene;
@@ -50,12 +56,13 @@ typedef struct qn_near_finder {
   size_t group_count, group_capacity;
   qn_near_table directions, exact_directions, offsets, centres;
   unsigned levels, centre_levels; /* bits: those that are asked at */
-  uint32_t *found;
+  qn_near_candidate *found;
   size_t found_count, found_capacity;
-  size_t compared, compared_exactly;
+  size_t compared, compared_exactly; /* the latter weighed; for a snap those alone that were not near */
   uint32_t *users, *users_of; /* leaves by surface, from users_of[i] to users_of[i + 1] */
   double unit;
   const qn_near_item *asking; /* of qn_near_boxes */
+  uint32_t met_leaves[QN_NEAR_FEW_MET];
   size_t met;
   int refused;
   qn_ctx ctx;

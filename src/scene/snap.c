@@ -126,6 +126,10 @@ quoin_status qn_snaps_find(const quoin_scene *survey, qn_num limit, qn_snaps *ou
   qn_near_pairs pairs;
   *out = (qn_snaps){0};
   quoin_status status = qn_near_find(survey, limit, QN_NEAR_SNAP, &pairs);
+  if (status == QUOIN_E_LIMIT && pairs.cut) {
+    qn_report report = {.severity = QUOIN_ERROR, .code = "Q1104", .reason = "finding what is nearest to each would take too long", .way_out = "snap with less"};
+    qn_diags_add(&survey->model->diags, &report, "too many surfaces are near one another, or nearly, to be snapped");
+  }
   if (status != QUOIN_OK) {
     return status;
   }

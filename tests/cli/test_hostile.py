@@ -160,6 +160,43 @@ class Hostile(Case):
             out = self.ask_ray(text, [0], 0, 0, 0)
             self.assertEqual((out[0], len(out)), ("boundary", n + 1))
 
+    # --- near surfaces
+
+    def near(self, text, *options, codes=(0,), words=()):
+        self.ask(text, list(codes), *words, options=("--max-memory", "1G", "--threads", "1", "--quiet", *options))
+        return dict(line.split(" ", 1) for line in (self.folder / "out").read_text().splitlines() if line.startswith(("near_pairs", "snapped")))
+
+    def test_near_surfaces_about_one_centre(self):
+        n = MANY
+        for what in ("sphere({0});", "cylinder(r={0},h=1);", "scale([1,2,3]) sphere({0});", "cylinder(r={0},h={0});", "translate([0,0,{0}]) cone(r={0},h={0});"):
+            self.assertEqual(self.near("".join(what.format(i + 1) for i in range(n)), "--near", "0.5", "--snap", "0.5"), {"near_pairs": "0", "snapped": "0"})
+        shells = "".join(f"sphere({i + 1}); sphere({i + 1}.001);" for i in range(n))
+        self.assertEqual(self.near(shells, "--near", "0.001")["near_pairs"], str(n))
+        self.assertEqual(self.near(shells, "--near", "0.001", "--snap", "0.001"), {"near_pairs": "0", "snapped": str(n)})
+
+    def test_near_boxes_at_one_place(self):
+        n = MANY
+        row = "".join(f"translate([{i}e-4,0,0]) cube(3);" for i in range(n))  # no more than one of four stands
+        self.assertEqual(self.near(row, "--near", "1e-5"), {"near_pairs": "0"})
+        told = self.near(row, "--near", "1e-4", "--snap", "3e-4")
+        self.assertEqual(told["near_pairs"], "0")
+        self.assertGreater(int(told["snapped"]), 5 * n // 4)
+        every = self.near("".join(f"translate([{i}e-9,{i}e-9,{i}e-9]) cube(1);" for i in range(n)), "--near", "1")
+        self.assertTrue(n < MANY or every["near_pairs"].endswith(" and more"))
+
+    def test_near_planes_at_angles(self):
+        n = MANY // 4
+        self.near(self.slices(n, 0))
+        self.near("".join(f"multmatrix([[1,0,0,0],[0,1,0,0],[{i}e-6,{i * i % 997}e-6,1,0]]) cube(1);" for i in range(n)))
+        self.near("".join(f"multmatrix([[1,0,0,0],[0,1,0,0],[{i}e-6,{i * i % 997}e-6,1,0]]) cube(1);" for i in range(n)), "--snap", "1e-3")
+
+    def test_near_surfaces_of_many_shapes(self):
+        if MANY < 20000:
+            return  # the effort is spent as slowly as the program runs
+        shapes = "".join(f"scale([1,1,1+{i}e-10]) sphere(1);" for i in range(8000))
+        self.assertEqual(self.near(shapes), {"near_pairs": "0 and more"})
+        self.near(shapes, "--snap", "1e-3", codes=[3], words=["Q1104"])
+
     # --- polyhedra
 
     @staticmethod

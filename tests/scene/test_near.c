@@ -62,17 +62,31 @@ static int users_near(const quoin_scene *s, uint32_t x, uint32_t y, double limit
   return 0;
 }
 
-static void no_pair_overlooked(void **unused) {
-  (void)unused;
+/* Bodies about one centre or axis, whose sizes differ by about the limit: their places tell nothing of them. */
+static void put_shell(char *text, double scale, double off, int map) {
+  static const char *const maps[] = {"", "rotate([10,20,30]) ", "scale([1,2,0.5]) ", "multmatrix([[1,0.3,0,0],[0,1,0.2,0],[0.1,0,1,0]]) ", "scale([1000,1,1]) "};
+  double r = scale + (below(24) - 12) * off, more = below(3) ? 0 : (below(5) - 2) * off, h = scale * (below(3) ? 2 : 1e13);
+  text += sprintf(text, "%stranslate([%.17g,0,%.17g]) ", maps[map], more, more);
+  switch (below(6)) {
+  case 5: sprintf(text, "quadric([1,1,1,0,0,0,0,0,%.17g,%.17g]);\n", 2 * scale, scale * scale - r * r); break; /* a sphere about another place */
+  case 0: sprintf(text, "sphere(%.17g);\n", r); break;
+  case 1: sprintf(text, "ellipsoid([%.17g,%.17g,%.17g]);\n", r, 2 * r, 3 * r); break;
+  case 2: sprintf(text, "cylinder(h=%.17g,r=%.17g);\n", h, r); break;
+  case 3: sprintf(text, "hyperboloid(h=%.17g,r=%.17g,rc=%.17g);\n", r, 2 * r, r); break;
+  default: sprintf(text, "cylinder(h=%.17g,r1=%.17g,r2=%.17g);\n", r, r, 2 * r); break;
+  }
+}
+
+static void look_for_pairs(void (*put)(char *text, double scale, double off, int map), int rounds, int shells) {
   enum { N = 20 };
   size_t pairs = 0, curved = 0, tilted = 0;
-  for (int round = 0; round < share_of(200); round++) {
+  for (int round = 0; round < rounds; round++) {
     char text[N * 300];
     double scale = ldexp(1, 10 * (below(7) - 3)), off = ldexp(scale, -4 * (2 + below(8))), limit = 5 * off;
     int map = below(5);
     text[0] = '\0';
     for (int i = 0; i < N; i++) {
-      put_solid(text + strlen(text), scale, off, map);
+      put(text + strlen(text), scale, off, map);
     }
     quoin_scene *s = scene_of(text);
     qn_ctx ctx;
@@ -119,7 +133,15 @@ static void no_pair_overlooked(void **unused) {
     quoin_scene_free(s);
   }
   print_message("%zu pairs, %zu curved, %zu tilted\n", pairs, curved, tilted);
-  assert_true(pairs > share_min(2000) && curved > share_min(100) && tilted > share_min(200));
+  assert_true(pairs > share_min(2000) && (shells ? curved > share_min(400) : curved > share_min(100) && tilted > share_min(200)));
+}
+static void no_pair_overlooked(void **unused) {
+  (void)unused;
+  look_for_pairs(put_solid, share_of(200), 0);
+}
+static void no_shell_overlooked(void **unused) {
+  (void)unused;
+  look_for_pairs(put_shell, share_of(200), 1);
 }
 
 /* Normals and offsets of planes against 300-bit numbers. */
@@ -184,6 +206,6 @@ static void planes_within_bounds(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(no_pair_overlooked), cmocka_unit_test(planes_within_bounds)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(no_pair_overlooked), cmocka_unit_test(no_shell_overlooked), cmocka_unit_test(planes_within_bounds)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
