@@ -7,7 +7,7 @@
 
 /* What steps cost, in units of QN_MAX_EFFORT: a side asked of doubles, and exactly; a corner that a plane is made of, or that is put in order; a point that is
    read and compared with others. */
-enum { QN_EFFORT_QUICK = 4, QN_EFFORT_SIDE = 2048, QN_EFFORT_CORNER = 4096, QN_EFFORT_POINT = 4096 };
+enum { QN_EFFORT_QUICK = 4, QN_EFFORT_SIDE = 256, QN_EFFORT_CORNER = 512, QN_EFFORT_POINT = 512 };
 
 /* Component i of a x b. */
 qn_num qn_polyhedron_cross(qn_ctx *ctx, const qn_num *a, const qn_num *b, size_t i);

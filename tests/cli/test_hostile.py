@@ -214,6 +214,12 @@ class Hostile(Case):
         points = ",".join(f"[{i},{i * i},0]" for i in range(n)) + f",[{n // 2},{n * n // 2},1]"
         self.ask(f"polyhedron(points=[{points}],faces=[{list(range(n))}," + ",".join(f"[{(i + 1) % n},{i},{n}]" for i in range(n)) + "]);", [0])
 
+    def test_polyhedra_that_are_many(self):
+        tetrahedron = "polyhedron(points=[[0,0,0],[{0},0,0],[0,{0}.5,0],[0,0,{0}.25]],faces=[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);"
+        self.ask("".join(tetrahedron.format(i + 1) for i in range(MANY)), [0])
+        head = "p=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]];f=[[0,1,2],[0,3,1],[0,2,3],[1,3,2]];"
+        self.ask(head + "".join(f"translate([{i},0,0]) polyhedron(p,f);" for i in range(MANY)), [0])
+
     def test_polyhedra_again_and_again(self):
         points = "p = [" + ",".join(f"[{i},{i * i},{z}]" for z in (0, 1) for i in range(2000)) + "];"
         faces = "f = [" + str(list(range(2000))) + "];"
