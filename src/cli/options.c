@@ -194,12 +194,19 @@ int cli_take_size(const char *option, const char *value, size_t *out) {
   return 0;
 }
 
+enum { LONGEST_DECIMAL = 1000 };
+
 int cli_take_decimal(const char *option, const char *value) {
   char *end;
   double v = strtod(value, &end); /* NOLINT(clang-analyzer-core.NonNullParamChecker): as above, there is one */
   if (value[0] == '\0' || strspn(value, "0123456789+-.eE") != strlen(value) || *end || !(v >= 0) || value[0] == '-') {
     cli_quoted q;
     cli_error("%s is not a value for --%s; give a decimal number, 0 or more", cli_quote(&q, value), option);
+    return -1;
+  }
+  if (strlen(value) > LONGEST_DECIMAL || v > 1e300 || (v < 1e-300 && strspn(value, "+-.0") != strcspn(value, "eE"))) {
+    cli_quoted q;
+    cli_error("%s is out of range for --%s; give 0, or a number from 1e-300 to 1e300 in at most %d characters", cli_quote(&q, value), option, LONGEST_DECIMAL);
     return -1;
   }
   return 0;

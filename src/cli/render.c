@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { OUTPUT = CLI_OWN, IMGSIZE, CAMERA, PROJECTION, FOV, NO_ANTIALIAS, SAMPLES, NO_SHADOWS, PROGRESS };
@@ -220,6 +221,12 @@ static int render(job *j, const cli_common *common, cli_loaded *loaded, const ch
   return code;
 }
 
+/* Whether both names are of one regular file; - is none. */
+static int is_one_file(const char *a, const char *b) {
+  struct stat x, y;
+  return strcmp(a, "-") != 0 && strcmp(b, "-") != 0 && stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
 static int run(const cli_command *self, int argc, char **argv) {
   job j = {.options = quoin_render_options_default(), .projection = QUOIN_PERSPECTIVE};
   cli_common common;
@@ -238,6 +245,11 @@ static int run(const cli_command *self, int argc, char **argv) {
   }
   if (!j.output) {
     cli_error("no file to write to; add -o OUT.png");
+    return cli_try_help(self);
+  }
+  if (is_one_file(j.output, path)) {
+    cli_quoted q;
+    cli_error("the picture would replace its own model %s; give another file to -o", cli_quote(&q, path));
     return cli_try_help(self);
   }
   cli_loaded loaded;

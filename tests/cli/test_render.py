@@ -169,5 +169,12 @@ class Wrong(Case):
         self.bad(run("render", m, "-o", self.folder, "--imgsize", "9,9"), 4, "irectory")
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["bad.scad", "model.scad"])
 
+    def test_a_model_is_not_replaced_by_its_picture(self):
+        m = self.model(BALL)
+        (self.folder / "other.png").symlink_to(m)
+        for name in (m, self.folder / "." / m.name, self.folder / "other.png"):
+            self.bad(run("render", m, "-o", name, "--imgsize", "9,9"), 2, "would replace its own model")
+            self.assertEqual(m.read_text(), BALL)
+
 
 main()

@@ -73,6 +73,11 @@ class Snap(Case):
         self.assertIn("distinct", self.good(run("scene", "-q", "--snap=1e-6", film)).out)
         self.good(run("render", "-q", "--snap", "1e-6", "--imgsize", "16,16", film, "-o", self.folder / "a.png"))
         self.bad(run("tree", "--snap", "1e-6", film), 2, "unknown option")
+        for option in ("--near", "--snap"):
+            for value in ("1e99999", "1e-99999", "1e301", "0." + "1" * 2000):
+                self.bad(run("check", option, value, film), 2, "is out of range for " + option)
+            for value in ("0e99999", "1e-300", "+00.1"):
+                self.good(run("check", "-q", option, value, self.model("cube(1);")))
 
     def test_a_film_is_gone(self):
         r = self.good(run("check", "--snap", "0.001", self.model("cube(1);\ntranslate([2, 0, 0])\n  cube([1, 1, 0.0005]);")))
