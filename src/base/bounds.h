@@ -188,6 +188,14 @@
 #define QN_BALL_GRID_2 24.0
 #define QN_BALL_LEAST 0x1p-100
 
+/* Rays of one direction d and balls, seen along d (wide/outline.h). Legend: e two axes across d, y from the tile's first lane, O the sum of the origins' largest coordinates.
+   Where e . y of a ball's centre is farther than r + off + half + QN_OUTLINE_PLACE (|y|_1 + O) from the middle of four lanes, which are within half, they all miss the ball. |e . d| <= QN_OUTLINE_SKEW |d|.
+   QN_OUTLINE_FLOAT, of the tile's width, QN_OUTLINE_SQUARE: what floats round. */
+#define QN_OUTLINE_SKEW 0x1p-44
+#define QN_OUTLINE_PLACE 0x1p-40
+#define QN_OUTLINE_FLOAT 0x1p-21
+#define QN_OUTLINE_SQUARE (1 + 0x1p-19)
+
 /* A point against a leaf's shadow (query/point.c). Legend as above with W the point's weight (|true y - y| <= u W, |y| <= W);
    Omega' = |X^| + QN_POINT_MAP_E Omega. Wherever every Omega and every |s|, |l| is at most QN_POINT_LARGEST,
      |X^ - X| <= QN_POINT_MAP_E Omega + QN_POINT_TINY

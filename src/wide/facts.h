@@ -2,7 +2,7 @@
 #ifndef QN_WIDE_FACTS_H
 #define QN_WIDE_FACTS_H
 
-#include "wide/walk.h"
+#include "wide/outline.h"
 
 static void see_origins(qn_packet *p) {
   for (int i = 0; i < 3; i++) {
@@ -134,6 +134,11 @@ static int facts(walk *w, qn_packet *p) {
   }
   if (p->new_directions) {
     see_directions(p);
+#if QN_LANES_NOW == 64
+    if (p->tile == QN_TILE_ORIGINS) {
+      see_across(p);
+    }
+#endif
   }
   for (int i = 0; i < 3; i++) {
     f->share[i] = p->tile == QN_TILE_PAIRS ? most(fabs(p->low[i]), fabs(p->high[i])) : p->tile == QN_TILE_MOVED ? p->moved[i] : 0;

@@ -38,7 +38,7 @@ typedef struct qn_packet {
      by component; only for packets with `any`. */
   enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS, QN_TILE_PAIRS, QN_TILE_MOVED } tile;
   double moved[3];
-  double across[3][8], up[3][8];
+  _Alignas(64) double across[3][8], up[3][8];
   _Alignas(64) double olow[3][QN_LANES], dlow[3][QN_LANES];
   _Alignas(64) double idd[QN_LANES], inv[3][QN_LANES]; /* 1 / (d . d); 1 / d_i, or 0 where d_i = 0 */
   _Alignas(64) float omin[3][8], omax[3][8], imin[3][8], imax[3][8]; /* of each eight lanes, rounded outward; i: of inv, widened */
@@ -46,6 +46,7 @@ typedef struct qn_packet {
   float all_imin[3], all_imax[3]; /* of all lanes */
   double d_most, idd_most, shy;   /* at least sqrt(dd_max), 1 / dd_min and 1 / sqrt(QN_WIDE_SHY dd_min) */
   int axis[3];
+  double plane[2][3]; /* of tiles of origins: unit vectors across the direction and each other (outline.h) */
   qn_ends start; /* where the range begins, within what ends are taken for */
   _Alignas(64) double stop[QN_LANES];
   float soonest, latest; /* of all lanes: start and stop, rounded outward */

@@ -12,6 +12,7 @@
 #include "wide/facts.h"
 #include "wide/lasts.h"
 #include "wide/leaf_enter.h"
+#include "wide/outline.h"
 
 /* NOLINTBEGIN(misc-no-recursion): as deep as lists stand within lists, at most QN_NORMAL_DEPTH */
 
@@ -212,6 +213,24 @@ QN_INLINE int push_children(const walk *w, uint32_t node, unsigned meets, const 
   return top;
 }
 
+/* The lanes that may meet a node's child that is a term. */
+QN_INLINE uint64_t lanes_meet_term(walk *w, const waiting *at) {
+#if QN_LANES_NOW == 64
+  const uint32_t line = w->scene->plain[at->node & ~QN_BVH_LEAF];
+  if (w->f.p->tile == QN_TILE_ORIGINS && line != UINT32_MAX && piece_in(w, line)->kind == QN_PIECE_SPHERE) {
+    return outline_lanes(w, (const qn_piece_sphere *)(const void *)piece_in(w, line));
+  }
+#endif
+  return subs_meet_child(w, &w->normal->nodes[at->parent], at->slot);
+}
+
+/* Whether what a packet meets is one term, and that not surely: seen along the rays none of them meets it. */
+QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
+  const unsigned slot = qn_trailing_zeros(meets);
+  const waiting only = {0, w->normal->nodes[un->root].child[slot], un->root, slot};
+  return QN_LANES_NOW == 64 && (meets & (meets - 1)) == 0 && only.node & QN_BVH_LEAF && !lanes_meet_term(w, &only);
+}
+
 /* No lane starts before `start` or has a best place after `end`. meets, near: the root's children that may be met, and where. any: a lane is done when a
    place is found, the first or not. */
 static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint64_t mask, lanes *best, float start, float end, unsigned meets, float near[8], int any) {
@@ -267,7 +286,7 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
 #endif
     uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
-      uint64_t in = subs_meet_child(w, &w->normal->nodes[stack[top].parent], stack[top].slot) & mask & within & ~w->unsure;
+      uint64_t in = lanes_meet_term(w, &stack[top]) & mask & within & ~w->unsure;
       if (in) {
         term_enter(w, &terms[at & ~QN_BVH_LEAF], from, in, best, &better);
         if (!top) {
@@ -416,6 +435,9 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   walk w;
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){.budget = counts->budget ? counts->budget * QN_GROUPS : UINT64_MAX};
   memset(w.ties, 0, sizeof w.ties);
+#if QN_LANES_NOW == 64
+  w.outline.made = 0;
+#endif
   hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
   if (!facts(&w, packet)) { /* numbers for which no bound is given */
     hits->unsure = packet->live;
@@ -425,7 +447,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   _Alignas(32) float near[8];
   const unsigned meets = root_meets(&w, root, packet->soonest, packet->latest, near);
   counts->packets++;
-  if (root->wide == 0 && !meets && !(packet->any && scene->normal.complement)) { /* nothing near: no ray need be made */
+  if (root->wide == 0 && (!meets || misses_only(&w, root, meets)) && !(packet->any && scene->normal.complement)) { /* nothing near: no ray need be made */
     counts->nodes += w.counts.nodes;
     return;
   }
@@ -486,6 +508,12 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
         w.unsure |= (uint64_t)1 << k;
       }
     }
+  }
+  hits->unsure = w.unsure & packet->live;
+  hits->found = found & packet->live & ~w.unsure;
+  if (!found) {
+    counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
+    return;
   }
   const vd reach = vset(w.f.reach);
   vm near_all = vmask(QN_ALL_BITS);

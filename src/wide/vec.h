@@ -105,6 +105,7 @@ QN_INLINE vd vwords(const uint32_t *p) { return _mm512_castsi512_pd(_mm512_cvtep
 QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
   return _mm512_testn_epi64_mask(_mm512_xor_si512(_mm512_castpd_si512(a), _mm512_castpd_si512(b)), _mm512_set1_epi64((long long)where));
 }
+QN_INLINE vd vswap(vd a) { return _mm512_permutex2var_pd(a, _mm512_set_epi64(6, 7, 4, 5, 2, 3, 0, 1), a); } /* neighbours change places: lanes 0 and 1, 2 and 3, ... */
 /* Lanes j and j + 1 of a and b in turn: a0 b0 a1 b1 into to[0], a2 b2 a3 b3 into to[1], and so on; no alignment. */
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   const __m512i even = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0), odd = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
@@ -159,6 +160,7 @@ QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
   const __m256i differ = _mm256_and_si256(_mm256_xor_si256(_mm256_castpd_si256(a), _mm256_castpd_si256(b)), _mm256_set1_epi64x((long long)where));
   return _mm256_castsi256_pd(_mm256_cmpeq_epi64(differ, _mm256_setzero_si256()));
 }
+QN_INLINE vd vswap(vd a) { return _mm256_permute_pd(a, 5); }
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   __m256d x = _mm256_unpacklo_pd(a, b), y = _mm256_unpackhi_pd(a, b); /* a0 b0 a2 b2, a1 b1 a3 b3 */
   _mm256_storeu_pd(to[0], _mm256_permute2f128_pd(x, y, 0x20)), _mm256_storeu_pd(to[1], _mm256_permute2f128_pd(x, y, 0x31));
@@ -210,6 +212,7 @@ QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
   const __m128i halves = _mm_cmpeq_epi32(differ, _mm_setzero_si128());
   return _mm_castsi128_pd(_mm_and_si128(halves, _mm_shuffle_epi32(halves, _MM_SHUFFLE(2, 3, 0, 1))));
 }
+QN_INLINE vd vswap(vd a) { return _mm_shuffle_pd(a, a, 1); }
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
   _mm_storeu_pd(to[0], _mm_unpacklo_pd(a, b)), _mm_storeu_pd(to[0] + 2, _mm_unpackhi_pd(a, b));
 }

@@ -26,6 +26,15 @@ typedef struct beam {
 } beam;
 #endif
 
+#if QN_LANES_NOW == 64
+/* A tile of origins seen along its direction (outline.h): where the middles of each four lanes lie, the left and the right ones of each eight, along two axes, from ref. */
+typedef struct outline {
+  int made;
+  double ref[3], half, place_off; /* half: no lane is farther from its middle */
+  _Alignas(32) float place[2][2][8];
+} outline;
+#endif
+
 typedef struct walk {
   packet_facts f;
   const struct quoin_scene *scene;
@@ -38,6 +47,8 @@ typedef struct walk {
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
 #if QN_LANES_NOW == 1
   beam beam;
+#elif QN_LANES_NOW == 64
+  outline outline;
 #endif
   _Alignas(64) double tolerance[QN_LANES_NOW]; /* the sum of any two errors of this lane so far */
 } walk;
