@@ -21,11 +21,12 @@ static void see_across(qn_packet *p) {
   for (int i = 0; i < 3; i++) {
     a[i] -= along * d[i], size2 += a[i] * a[i];
   }
-  along = 0;
-  for (int i = 0; i < 3 && size2 > 0; i++) {
-    a[i] /= sqrt(size2), along += a[i] * d[i];
+  const double to_unit = 1 / sqrt(size2);
+  along = 0, size2 = 0;
+  for (int i = 0; i < 3; i++) {
+    a[i] *= to_unit, along += a[i] * d[i], size2 += a[i] * a[i];
   }
-  if (!(size2 > 0) || !(fabs(along) <= QN_OUTLINE_SKEW / 2)) { /* rows go along the rays: across the axis that the direction has the least of */
+  if (!(fabs(size2 - 1) <= QN_OUTLINE_SKEW / 2 && fabs(along) <= QN_OUTLINE_SKEW / 2)) { /* rows go along the rays, or have no length: across the axis that the direction has the least of */
     const int x = fabs(d[0]) <= fabs(d[1]) ? fabs(d[0]) <= fabs(d[2]) ? 0 : 2 : fabs(d[1]) <= fabs(d[2]) ? 1 : 2, y = (x + 1) % 3, z = (x + 2) % 3;
     const double size = sqrt(d[y] * d[y] + d[z] * d[z]);
     a[x] = 0, a[y] = d[z] / size, a[z] = -d[y] / size;

@@ -213,22 +213,35 @@ QN_INLINE int push_children(const walk *w, uint32_t node, unsigned meets, const 
   return top;
 }
 
+#if QN_LANES_NOW == 64
+/* The ball that a node's child is, of a tile that balls are seen from; else null. */
+QN_INLINE const qn_piece_sphere *ball_of(const walk *w, uint32_t child) {
+  const uint32_t line = (w->f.p->tile == QN_TILE_ORIGINS && (child & QN_BVH_LEAF)) ? w->scene->plain[child & ~QN_BVH_LEAF] : UINT32_MAX;
+  const qn_piece_head *head = line != UINT32_MAX ? piece_in(w, line) : NULL;
+  return head && head->kind == QN_PIECE_SPHERE ? (const qn_piece_sphere *)(const void *)head : NULL;
+}
+
+/* Whether all that a packet may meet is one ball, and no lane meets that. */
+QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
+  const qn_piece_sphere *b = (meets & (meets - 1)) != 0 ? NULL : ball_of(w, w->normal->nodes[un->root].child[qn_trailing_zeros(meets)]);
+  return b && !outline_lanes(w, b);
+}
+#else
+QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
+  (void)w, (void)un, (void)meets;
+  return 0;
+}
+#endif
+
 /* The lanes that may meet a node's child that is a term. */
 QN_INLINE uint64_t lanes_meet_term(walk *w, const waiting *at) {
 #if QN_LANES_NOW == 64
-  const uint32_t line = w->scene->plain[at->node & ~QN_BVH_LEAF];
-  if (w->f.p->tile == QN_TILE_ORIGINS && line != UINT32_MAX && piece_in(w, line)->kind == QN_PIECE_SPHERE) {
-    return outline_lanes(w, (const qn_piece_sphere *)(const void *)piece_in(w, line));
+  const qn_piece_sphere *b = ball_of(w, at->node);
+  if (b) {
+    return outline_lanes(w, b);
   }
 #endif
   return subs_meet_child(w, &w->normal->nodes[at->parent], at->slot);
-}
-
-/* Whether what a packet meets is one term, and that not surely: seen along the rays none of them meets it. */
-QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
-  const unsigned slot = qn_trailing_zeros(meets);
-  const waiting only = {0, w->normal->nodes[un->root].child[slot], un->root, slot};
-  return QN_LANES_NOW == 64 && (meets & (meets - 1)) == 0 && only.node & QN_BVH_LEAF && !lanes_meet_term(w, &only);
 }
 
 /* No lane starts before `start` or has a best place after `end`. meets, near: the root's children that may be met, and where. any: a lane is done when a
