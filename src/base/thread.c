@@ -73,6 +73,7 @@ static void *serve(void *arg) {
 
 void qn_crew_open(qn_crew *c) {
   c->started = 1;
+  c->workers[0].crew = c, c->workers[0].number = 0;
   c->wide = c->busy = 0;
   c->pass = 0;
   c->open = c->over = 0;
@@ -89,7 +90,11 @@ quoin_status qn_crew_run(qn_crew *c, unsigned threads, size_t n, quoin_status (*
   atomic_store_explicit(&c->next, 0, memory_order_relaxed);
   atomic_store_explicit(&c->stop, 0, memory_order_relaxed);
   for (unsigned i = 0; i < threads; i++) {
-    c->workers[i] = (worker){c, i, n, QUOIN_OK};
+    worker *w = &c->workers[i];
+    w->failed_at = n, w->status = QUOIN_OK;
+    if (i >= c->started) { /* the others' threads may only now come to read who they are */
+      w->crew = c, w->number = i;
+    }
   }
   c->wide = threads;
   c->pass++;

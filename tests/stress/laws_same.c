@@ -247,7 +247,7 @@ static void grids(trial *t) {
       const size_t k = (y - y0) * (x1 - x0) + (x - x0);
       const quoin_run in = whole.inside_of[k], on = whole.boundary_of[k];
       said block;
-      keep(&block, QUOIN_OK, &(quoin_intervals){.count = in.count, .inside = whole.inside + in.first, .boundary_count = on.count, .boundary = on.count ? whole.boundary + on.first : NULL});
+      keep(&block, QUOIN_OK, &(quoin_intervals){.count = in.count, .inside = in.count ? whole.inside + in.first : NULL, .boundary_count = on.count, .boundary = on.count ? whole.boundary + on.first : NULL});
       alike(t, &block, &all, SAME_PARTS, "all intervals of a grid", &one);
       t->checks++, t->asked += 3;
       if ((spot->surface != QUOIN_NO_SURFACE) != want.found || (want.found && ((int)spot->leaving != want.leaving || memcmp(&spot->t, &want.t, sizeof want.t) != 0))) {
