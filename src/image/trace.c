@@ -96,11 +96,11 @@ static size_t list_rays(qn_tracer *t, const qn_packet *p, unsigned lane_of[QN_LA
 /* The first boundaries of camera rays, which may be too spread out to go as one packet unless they are known to be narrow. */
 static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, qn_seen seen[QN_LANES], uint64_t *met) {
   if (narrow || t->shade->together(p, p->live)) {
-    return qn_look_packet(t->work, p, QN_LOOK_T | QN_LOOK_MATERIAL, seen, met);
+    return qn_look_packet(t->work, p, QN_LOOK_T, seen, met);
   }
   unsigned lane_of[QN_LANES];
   const size_t n = list_rays(t, p, lane_of);
-  const quoin_status status = qn_look(t->work, n, t->alone, t->alone_on, QN_LOOK_T | QN_LOOK_MATERIAL, t->alone_seen);
+  const quoin_status status = qn_look(t->work, n, t->alone, t->alone_on, QN_LOOK_T, t->alone_seen);
   *met = 0;
   for (size_t i = 0; i < n; i++) {
     seen[lane_of[i]] = t->alone_seen[i];

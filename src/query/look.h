@@ -15,10 +15,8 @@ typedef struct qn_seen {
 } qn_seen;
 
 enum {
-  QN_LOOK_T = 1,        /* t correctly rounded; without it t is only near */
-  QN_LOOK_MATERIAL = 4, /* of parts that share the surface that is met and are all of one material, any will do */
-  QN_LOOK_SURFACE = 8,  /* the surface that is met is wanted, not the part: of its parts any will do */
-  QN_LOOK_ANY = 2       /* where surfaces of several parts tie, any of these will do; else the one that the woven path names */
+  QN_LOOK_T = 1,       /* t correctly rounded; without it t is only near */
+  QN_LOOK_SURFACE = 2  /* the surface that is met is wanted, not the part: of its parts any will do; else the one that the woven path names */
 };
 
 /* The first boundaries of n rays, each with a finite origin and a finite direction that is not zero. Rays that go the same way do best in

@@ -155,16 +155,9 @@ static uint64_t round_each(quoin_work *work, qn_packet *packet, const qn_packet_
 quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen *out, uint64_t *met) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
-  uint64_t tied = want & QN_LOOK_ANY ? 0 : hits.tied & ~hits.unsure;
-  if (tied && want & (QN_LOOK_MATERIAL | QN_LOOK_SURFACE)) {
-    for (uint64_t m = qn_alone_lanes(work->scene, packet, &hits, tied); m; m &= m - 1) {
-      unsigned lane = qn_trailing_zeros(m);
-      const int open = want & QN_LOOK_MATERIAL && work->scene->surfaces[hits.surface[lane]].materials_differ;
-      tied &= ~((uint64_t)!open << lane);
-    }
-  }
-  if (tied && !(want & QN_LOOK_SURFACE)) {
-    tied &= ~qn_name_parts(work->scene, qn_scratch_eval(work->scratch), packet, &hits, tied);
+  uint64_t tied = hits.tied & ~hits.unsure;
+  if (tied) {
+    tied &= ~(want & QN_LOOK_SURFACE ? qn_alone_lanes(work->scene, packet, &hits, tied) : qn_name_parts(work->scene, qn_scratch_eval(work->scratch), packet, &hits, tied));
   }
   const uint64_t woven = hits.unsure | tied;
   *met = hits.found;

@@ -223,7 +223,6 @@ static uint32_t add_surface(finder *f, uint32_t leaf, uint32_t half) {
   s->leaf = leaf;
   s->half = half;
   s->users = 0;
-  s->materials_differ = 0;
   s->kind = scene->halves[half].kind;
   atomic_init(&s->exact, NULL);
   atomic_init(&s->rounding, NULL);
@@ -291,7 +290,6 @@ static quoin_status identify(finder *f, uint32_t leaf, uint32_t half) {
   h->surface = surface;
   qn_surface *s = &scene->surfaces[surface];
   s->users++;
-  s->materials_differ |= s->leaf != leaf && scene->leaves[s->leaf].material != scene->leaves[leaf].material;
   return QUOIN_OK;
 }
 

@@ -53,7 +53,6 @@ typedef struct qn_kept_maps qn_kept_maps; /* scene/compile.h */
 typedef struct qn_surface {
   uint32_t leaf, half;            /* a user: halves[half] of leaves[leaf] */
   uint32_t users;
-  uint8_t materials_differ;       /* its users are of several materials */
   uint8_t kind;
   union {                         /* null until asked for */
     _Atomic(qn_exact_surface *) exact;

@@ -1,6 +1,7 @@
 /* QN_POINT_BALL_E and QN_POINT_BOX_SLACK in rationals: what is called sure of a point and a piece is so, with every stored number as far off as its
    contract allows; and the bounds bite: values within them do come out on the wrong side. (Planes and quadrics: tests/query/test_bounds.c
    for the bounds, tests/query/test_points.c for their use.) */
+#include "dice.h"
 #include "share.h"
 #include "wide/inside.h"
 
@@ -13,12 +14,6 @@
 
 #include <cmocka.h>
 
-static uint64_t seed = 0x2545f4914f6cdd1du;
-static uint64_t next(void) {
-  seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-  return seed;
-}
-static int below(int n) { return (int)((next() >> 20) % (uint64_t)n); }
 /* In [-1, 1], with few or many bits, of any size down to 2^-range. */
 static double part(int range) {
   double v = ldexp((double)(int64_t)next() * 0x1p-63, -below(range));

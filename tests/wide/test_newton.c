@@ -1,5 +1,6 @@
 /* The bounds of wide/newton.h in rationals, in its baseline body (whose fused operations round twice: the worst of the bodies): the
    computed p, p' and a against their exact values, on surfaces and lines biased towards cancellation. Names as in base/bounds.h. */
+#include "dice.h"
 #include "share.h"
 #include "wide/newton.h"
 
@@ -13,14 +14,6 @@
 
 #include <cmocka.h>
 
-static uint64_t seed = 0x2545f4914f6cdd1du;
-static uint64_t next(void) {
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return seed;
-}
-static int one_in(unsigned n) { return next() % n == 0; }
 /* A double of magnitude about 2^low .. 2^high, with few or many bits. */
 static double number(int low, int high) {
   double m = (double)(next() >> 11) * 0x1p-53 + 0.5;

@@ -4,6 +4,7 @@
 #ifndef QN_ISA_AVX2
 #define QN_ISA_SSE2
 #endif
+#include "dice.h"
 #include "share.h"
 #include "wide/facts.h"
 
@@ -15,19 +16,7 @@
 
 #include <cmocka.h>
 
-static uint64_t seed = 0x94d049bb133111ebu;
-static uint64_t next(void) {
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return seed;
-}
-static int one_in(unsigned n) { return (next() >> 20) % n == 0; }
-static int below(int n) { return (int)((next() >> 20) % (uint64_t)n); }
-static double part(void) { /* in [-1, 1], with few or many bits */
-  double v = (double)(int64_t)next() * 0x1p-63;
-  return one_in(5) ? ldexp(floor(ldexp(v, 4)), -4) : v;
-}
+static double part(void) { return part_of(5, 4); } /* in [-1, 1], with few or many bits */
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static void minus_along(double a[3], const double d[3]) {
   const double along = dot(a, d) / dot(d, d);

@@ -1,5 +1,6 @@
 /* Places rounded by every wide body that this machine runs, against the exact root's nearest double: surfaces of every kind near and
    far, rational and rotated by irrational angles, rays that graze, roots in the middle between doubles, numbers out of range. */
+#include "dice.h"
 #include "quoin/quoin.h"
 #include "number/quad.h"
 #include "base/bounds.h"
@@ -17,19 +18,7 @@
 
 #include <cmocka.h>
 
-static uint64_t seed = 0x853c49e6748fea9bu;
-static uint64_t next(void) {
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return seed;
-}
-static int one_in(unsigned n) { return next() % n == 0; }
-/* In [-1, 1], with few or many bits. */
-static double part(void) {
-  double v = (double)(int64_t)next() * 0x1p-63;
-  return one_in(4) ? ldexp(floor(ldexp(v, 6)), -6) : v;
-}
+static double part(void) { return part_of(4, 6); } /* in [-1, 1], with few or many bits */
 
 /* --- the bodies ---------------------------------------------------------------------------------------------------- */
 

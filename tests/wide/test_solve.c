@@ -6,6 +6,7 @@
 #ifndef QN_ISA_AVX2
 #define QN_ISA_SSE2 /* products and sums rounded apart: the worst of the bodies */
 #endif
+#include "dice.h"
 #include "share.h"
 #include "wide/facts.h"
 
@@ -19,20 +20,7 @@
 
 #include <cmocka.h>
 
-static uint64_t seed = 0x2545f4914f6cdd1du;
-static uint64_t next(void) {
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return seed;
-}
-static int one_in(unsigned n) { return (next() >> 20) % n == 0; }
-static int below(int n) { return (int)((next() >> 20) % (uint64_t)n); }
-/* In [-1, 1], with few or many bits. */
-static double part(void) {
-  double v = (double)(int64_t)next() * 0x1p-63;
-  return one_in(3) ? ldexp(floor(ldexp(v, 4)), -4) : v;
-}
+static double part(void) { return part_of(3, 4); } /* in [-1, 1], with few or many bits */
 
 /* --- exact half-spaces along a line ------------------------------------------------------------------------------------- */
 

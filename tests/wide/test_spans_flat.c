@@ -1,5 +1,6 @@
 /* The bound of wide/spans_flat.h in rationals, in its baseline body: places on planes across an axis against their exact values, biased towards cancellation; and
    what is called certain is the nearest double. */
+#include "dice.h"
 #include "share.h"
 #include "wide/spans_flat.h"
 
@@ -13,14 +14,6 @@
 
 #include <cmocka.h>
 
-static uint64_t seed = 0x9e3779b97f4a7c15u;
-static uint64_t next(void) {
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return seed;
-}
-static int one_in(unsigned n) { return next() % n == 0; }
 /* A double of magnitude about 2^low .. 2^high, with few or many bits. */
 static double number(int low, int high) {
   double m = (double)(next() >> 11) * 0x1p-53 + 0.5;
