@@ -10,6 +10,7 @@
 #define QN_WIDE_PACKET_BODY_H
 
 #include "wide/facts.h"
+#include "wide/lane_points.h"
 #include "wide/lasts.h"
 #include "wide/leaf_enter.h"
 #include "wide/outline.h"
@@ -336,37 +337,6 @@ static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mas
   return union_walk(w, un, from, mask, best, start, end, meets, near, 0);
 }
 
-/* Boxes of the lanes' points, one for each sub-packet; slack for their rounding. */
-typedef struct spots { _Alignas(32) float min[3][8], max[3][8]; float all_min[3], all_max[3]; } spots;
-
-static void spots_of(const walk *w, const lanes *at, uint64_t mask, spots *s) {
-  const qn_packet *p = w->f.p;
-  _Alignas(64) double low[3][QN_LANES_NOW], high[3][QN_LANES_NOW];
-  for (int g = 0; g < QN_GROUPS; g++) {
-    const int o = g * QN_W;
-    const unsigned bits = (unsigned)(mask >> o) & QN_ALL_BITS;
-    const vm in = vmask(bits);
-    const vd t = vload(at->t + o), off = vmul(vload(w->tolerance + o), vset(4)), none = vset(INFINITY);
-    for (int i = 0; i < 3; i++) {
-      if (!bits) {
-        vstore(low[i] + o, none), vstore(high[i] + o, vsub(vset(0), none));
-        continue;
-      }
-      vd d = vload(p->d[i] + o), step = vmul(t, d), x = vadd(vload(p->o[i] + o), step);
-      vd slack = vfma(vadd(vabs(step), vabs(x)), vset(QN_WIDE_SPOT), vmul(off, vabs(d)));
-      slack = vadd(slack, vset(2 * QN_U * w->f.share[i]));
-      vstore(low[i] + o, vpick(in, vsub(x, slack), none));
-      vstore(high[i] + o, vpick(in, vadd(x, slack), vsub(vset(0), none)));
-    }
-  }
-  for (int i = 0; i < 3; i++) {
-    _Alignas(64) double lows[SUBS], highs[SUBS];
-    sub_extremes(low[i], 0, lows), sub_extremes(high[i], 1, highs);
-    outward(lows, highs, s->min[i], s->max[i]);
-    s->all_min[i] = fleast(fload(s->min[i])), s->all_max[i] = fmost(fload(s->max[i]));
-  }
-}
-
 /* One pass: every term that holds a lane is left. Returns the lanes that moved. */
 static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask) {
   const qn_nterm *terms = w->normal->terms;
@@ -378,8 +348,8 @@ static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask
     return moved;
   }
   mask &= ~w->unsure;
-  spots s;
-  spots_of(w, at, mask, &s);
+  lane_points s;
+  lane_points_of(w, at, mask, &s);
   uint32_t stack[STACK];
   int top = 0;
   stack[top++] = un->root;
@@ -387,11 +357,11 @@ static uint64_t leave_once(walk *w, const qn_union *un, lanes *at, uint64_t mask
     uint32_t node = stack[--top];
     if (node & QN_BVH_LEAF) {
       const qn_nterm *t = &terms[node & ~QN_BVH_LEAF];
-      unsigned in = SUBS == 1 ? 1 : 0xff; /* of one lane, the box of the node above was the same */
-      for (int i = 0; SUBS > 1 && i < 3; i++) {
+      unsigned in = 0xff;
+      for (int i = 0; i < 3; i++) {
         in &= fle(fset(t->min[i]), fload(s.max[i])) & fle(fload(s.min[i]), fset(t->max[i]));
       }
-      uint64_t lanes_in = eights(in) & mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
+      uint64_t lanes_in = points_meet_term(&s, t, in) & mask & ~w->unsure & ~moved; /* a lane that moved is elsewhere now: the next pass looks there */
       if (lanes_in) {
         moved |= term_leave(w, t, at, lanes_in);
       }
