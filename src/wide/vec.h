@@ -56,6 +56,7 @@ QN_INLINE vd vpick(vm m, vd a, vd b) { return m ? a : b; }
 QN_INLINE unsigned vbits(vm m) { return m; }
 QN_INLINE unsigned vsigns(vd a) { return (unsigned)(vword(a) >> 63); }
 QN_INLINE unsigned vsecond(vd a) { return (unsigned)(vword(a) >> 62 & 1); }
+QN_INLINE vm vsame(vd a, vd b, uint64_t where) { return !((vword(a) ^ vword(b)) & where); }
 QN_INLINE vm vmask(unsigned bits) { return bits; }
 QN_INLINE vd vpower(vd a) { /* the power of two at or below a, normal and positive */
   uint64_t w = vword(a) & UINT64_C(0x7ff0000000000000);

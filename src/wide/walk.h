@@ -103,25 +103,24 @@ QN_INLINE uint64_t eights(unsigned bits) {
 
 /* --- order --------------------------------------------------------------------------------------------------------- */
 
+/* Of the lanes `near`, which may be at one place: in *equal come those where both are the same root of the same surface, the others are given up. A place where a ray
+   starts on a surface is either root of it; two ends that are nobody's are one place if they are one number. */
 static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apart, vd px, vd py, unsigned *equal) {
-  _Alignas(64) double x[QN_W], y[QN_W], t[QN_W], gap[QN_W];
-  vstore(x, px), vstore(y, py), vstore(t, at), vstore(gap, apart);
-  for (int i = 0; i < QN_W; i++) {
-    if (near >> i & 1) {
-      uint64_t a, b;
-      memcpy(&a, &x[i], 8), memcpy(&b, &y[i], 8);
-      const uint64_t who = ((a | b) & QN_STARTS_ON) != 0 ? 0xffffffffu : QN_LARGER_ROOT | 0xffffffffu;
-      int nobody = (a & QN_NOBODY) == QN_NOBODY; /* both ends of the range, or no end at all */
-      if ((a & who) == (b & who) && !(nobody && gap[i] != 0)) {
-        *equal |= 1u << i;
-        if (!((a | b) & QN_STARTS_ON) && (a >> 32 & QN_LEAF_BITS) != (b >> 32 & QN_LEAF_BITS)) {
-          uint8_t *n = &w->ties[g * QN_W + i];
-          *n = (uint8_t)(*n + (*n <= TIES));
-          w->tie[*n - 1 < TIES ? *n - 1 : 0][g * QN_W + i] = t[i];
-        }
-      } else {
-        w->unsure |= (uint64_t)1 << (g * QN_W + i);
-      }
+  const vd zero = vset(0), nobody = vset(payload_bits(QN_NOBODY));
+  const unsigned starts = vsigns(px) | vsigns(py), surface = vbits(vsame(px, py, QN_NOBODY)), root = vbits(vsame(px, py, QN_LARGER_ROOT));
+  const unsigned apart_ends = vbits(vandnot(vsame(px, nobody, QN_NOBODY), veq(apart, zero)));
+  const unsigned same = near & surface & (root | starts) & ~apart_ends;
+  *equal |= same;
+  w->unsure |= (uint64_t)(near & ~same) << (g * QN_W);
+  unsigned named = same & ~starts & ~vbits(vsame(px, py, (uint64_t)QN_LEAF_BITS << 32)); /* by two leaves */
+  if (named) {
+    _Alignas(64) double t[QN_W];
+    vstore(t, at);
+    for (; named; named &= named - 1) {
+      const unsigned i = qn_trailing_zeros(named), lane = (unsigned)g * QN_W + i;
+      uint8_t *n = &w->ties[lane];
+      *n = (uint8_t)(*n + (*n <= TIES));
+      w->tie[*n - 1 < TIES ? *n - 1 : 0][lane] = t[i];
     }
   }
 }
