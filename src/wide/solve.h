@@ -268,19 +268,19 @@ QN_INLINE stretch box_solve(const packet_facts *f, const box_constants *k, int g
   later = vlt(first, a[2]);
   second = vmax(second, vmin(first, a[2]));
   s.a = vmax(first, a[2]), s.pa = vpick(later, pa[2], s.pa);
-  vm tied = vand(near_each_other(s.a, second, two), vlt(near, second));
+  vm apart = vor(vlt(two, vsub(s.a, second)), vle(second, near)); /* the first one stands alone */
   vm sooner = vlt(b[1], b[0]);
   first = vmin(b[0], b[1]), second = vmax(b[0], b[1]);
   s.pb = vpick(sooner, pb[1], pb[0]);
   sooner = vlt(b[2], first);
   second = vmin(second, vmax(first, b[2]));
   s.b = vmin(first, b[2]), s.pb = vpick(sooner, pb[2], s.pb);
-  tied = vor(tied, vand(near_each_other(s.b, second, two), vlt(second, far)));
-  /* An edge counts only on a ray that meets the box. */
-  vm none = vlt(vadd(s.b, two), s.a);
-  s.hit = vandnot(s.hit, none);
-  s.unsure = doubt(vand(vor(s.unsure, tied), s.hit));
-  stretch_settle(&s);
+  apart = vand(apart, vor(vlt(two, vsub(second, s.b)), vle(far, second)));
+  /* A stretch needs positive length, surely; an edge counts only on a ray that meets the box. */
+  const vd length = vsub(s.b, s.a);
+  s.hit = vandnot(s.hit, vlt(length, vsub(zero, two)));
+  s.unsure = doubt(vandnot(s.hit, vandnot(vand(apart, vlt(two, length)), s.unsure)));
+  s.hit = vand(vandnot(s.hit, s.unsure), vlt(two, length));
   return s;
 }
 
