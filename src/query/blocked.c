@@ -87,6 +87,21 @@ static void move_starts(asked *a) {
   a->seen.one_range = 0, a->seen.new_ranges = 1;
 }
 
+/* Sorted rays that pass too wide apart for one packet: neighbours among them may share smaller ones. */
+static quoin_status in_order(asked *a, const uint16_t *which, unsigned n) {
+  quoin_ray rays[QN_LANES];
+  uint32_t on[QN_LANES];
+  uint8_t blocked[QN_LANES];
+  for (unsigned i = 0; i < n; i++) {
+    rays[i] = a->rays[which[i]], on[i] = a->on ? a->on[which[i]] : QUOIN_NO_SURFACE;
+  }
+  quoin_status status = qn_look_blocked_in_order(a->work, n, rays, a->on ? on : NULL, blocked);
+  for (unsigned i = 0; i < n && status == QUOIN_OK; i++) {
+    a->blocked[which[i]] = blocked[i];
+  }
+  return status;
+}
+
 static quoin_status answer_rest(asked *a) {
   qn_sort_across(a->rays, a->rest_count, a->rest, &a->room);
   quoin_status status = QUOIN_OK;
@@ -99,10 +114,7 @@ static quoin_status answer_rest(asked *a) {
       status = run(a, 0, a->rest + at, n);
     } else {
       a->seen.one_way = a->seen.one_range = 0;
-      for (unsigned i = 0; i < n && status == QUOIN_OK; i++) {
-        const size_t ray = a->rest[at + i];
-        status = qn_look_blocked_in_order(a->work, 1, a->rays + ray, a->on ? a->on + ray : NULL, a->blocked + ray);
-      }
+      status = in_order(a, a->rest + at, n);
     }
     at += n;
   }
