@@ -6,17 +6,20 @@
 enum { AXIS_BITS = 10, RAY_BITS = 12, DIGIT_BITS = 10 };
 _Static_assert(QN_ACROSS_MOST == 1 << RAY_BITS && 2 * AXIS_BITS + RAY_BITS == 32 && 2 * AXIS_BITS == 2 * DIGIT_BITS, "a place and a ray's number are one word");
 
-/* Bits 0 to 9 at every other place. */
-static uint32_t spread(uint32_t x) {
-  x = (x | x << 8) & 0x00ff00ffu;
-  x = (x | x << 4) & 0x0f0f0f0fu;
-  x = (x | x << 2) & 0x33333333u;
-  return (x | x << 1) & 0x55555555u;
+/* Bits 0 to 9 of two numbers in turn: those of x at the even places, those of y at the odd ones. */
+static uint32_t weave(uint32_t x, uint32_t y) {
+  uint64_t both = x | (uint64_t)y << 32;
+  both = (both | both << 8) & UINT64_C(0x00ff00ff00ff00ff);
+  both = (both | both << 4) & UINT64_C(0x0f0f0f0f0f0f0f0f);
+  both = (both | both << 2) & UINT64_C(0x3333333333333333);
+  both = (both | both << 1) & UINT64_C(0x5555555555555555);
+  return (uint32_t)(both | both >> 31);
 }
 
-static uint32_t step_of(double x, double scale) { /* which is no number where rays are as far apart as doubles are */
-  const double y = x * scale;
-  return !(y >= 0) ? 0 : y < (1 << AXIS_BITS) - 1 ? (uint32_t)y : (1 << AXIS_BITS) - 1;
+/* Of a place not below the lowest one; the last step where rays are as far apart as doubles are, and there is no number. */
+static uint32_t step_of(float above, float scale) {
+  const float y = above * scale, last = (1 << AXIS_BITS) - 1;
+  return (uint32_t)(int32_t)(y < last ? y : last);
 }
 
 /* Two directions across d, of about its length; about: they decide only what is faster. */
@@ -31,19 +34,22 @@ static void across(const double d[3], double u[3], double v[3]) {
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void qn_sort_across(const quoin_ray *rays, size_t n, uint16_t *which, qn_across_room *room) {
-  double u[3], v[3], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+  double u[3], v[3];
   across(rays[which[0]].d, u, v);
+  const double *first = rays[which[0]].o, from[2] = {dot(first, u), dot(first, v)}; /* floats that are small where rays are near */
+  float low[2] = {0, 0}, high[2] = {0, 0}, (*at)[2] = room->at;
   for (size_t i = 0; i < n; i++) {
-    const double *o = rays[which[i]].o, x = dot(o, u), y = dot(o, v);
+    const double *o = rays[which[i]].o;
+    const float x = (float)(dot(o, u) - from[0]), y = (float)(dot(o, v) - from[1]);
+    at[i][0] = x, at[i][1] = y;
     low[0] = x < low[0] ? x : low[0], high[0] = x > high[0] ? x : high[0];
     low[1] = y < low[1] ? y : low[1], high[1] = y > high[1] ? y : high[1];
   }
-  const double wide = high[0] - low[0] > high[1] - low[1] ? high[0] - low[0] : high[1] - low[1], scale = (1 << AXIS_BITS) / wide;
+  const float wide = high[0] - low[0] > high[1] - low[1] ? high[0] - low[0] : high[1] - low[1], scale = (1 << AXIS_BITS) / wide;
   uint32_t count[2][1 << DIGIT_BITS];
   memset(count, 0, sizeof count);
   for (size_t i = 0; i < n; i++) {
-    const double *o = rays[which[i]].o;
-    const uint32_t place = spread(step_of(dot(o, u) - low[0], scale)) | spread(step_of(dot(o, v) - low[1], scale)) << 1;
+    const uint32_t place = weave(step_of(at[i][0] - low[0], scale), step_of(at[i][1] - low[1], scale));
     room->key[0][i] = place << RAY_BITS | which[i];
     count[0][place & ((1 << DIGIT_BITS) - 1)]++, count[1][place >> DIGIT_BITS]++;
   }
