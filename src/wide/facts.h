@@ -77,6 +77,7 @@ static void see_directions(qn_packet *p) {
   }
   p->dd_min = (2 - QN_WIDE_SLACK) * x[0], p->dd_max = QN_WIDE_SLACK * y[0];
   p->d_most = sqrt(p->dd_max), p->idd_most = QN_WIDE_SLACK * QN_WIDE_SLACK * z[0], p->shy = p->idd_most * p->d_most * QN_WIDE_SHY_ROOT;
+  p->one_way = 1;
   for (int i = 0; i < 3; i++) {
     _Alignas(64) double low[SUBS], high[SUBS];
     double dlow = INFINITY, dhigh = -INFINITY;
@@ -95,6 +96,7 @@ static void see_directions(qn_packet *p) {
       finite &= isfinite(p->imin[i][k]) && isfinite(p->imax[i][k]);
       p->all_imin[i] = p->imin[i][k] < p->all_imin[i] ? p->imin[i][k] : p->all_imin[i], p->all_imax[i] = p->imax[i][k] > p->all_imax[i] ? p->imax[i][k] : p->all_imax[i];
     }
+    p->one_way &= dlow == dhigh;
     p->dabs[i] = most(fabs(dlow), fabs(dhigh));
     p->axis[i] = !finite ? AXIS_MIXED : dlow > 0 ? AXIS_UP : dhigh < 0 ? AXIS_DOWN : dlow == 0 && dhigh == 0 ? AXIS_FLAT : AXIS_MIXED;
   }
@@ -135,7 +137,7 @@ static int facts(walk *w, qn_packet *p) {
   if (p->new_directions) {
     see_directions(p);
 #if QN_LANES_NOW == 64
-    if (p->tile == QN_TILE_ORIGINS) {
+    if (p->one_way) {
       see_across(p);
     }
 #endif

@@ -1,5 +1,6 @@
-/* Which lanes of a tile may meet a ball, seen along the one direction that all of them have: there lanes are points, the ball is a disc. Four lanes are two columns and two
-   rows of the tile (packet.h) and lie in a small disc of their own, where the boxes of eight that other leaves are asked about reach beyond them on all sides. Static code of the packet body.
+/* Which lanes may meet a ball, seen along the one direction that all of them have: there lanes are points, the ball is a disc. Of a tile of origins, four lanes are two columns and
+   two rows (packet.h) and lie in a small disc of their own, where the boxes of eight that other leaves are asked about reach beyond them on all sides; of other packets each lane is asked.
+   Static code of the packet body.
 
    Legend: e the two axes across the direction, unit vectors; places are told from `ref`, a lane's start. docs/bounds.md, QN_OUTLINE_PLACE. */
 #ifndef QN_WIDE_OUTLINE_H
@@ -8,15 +9,16 @@
 #include "wide/walk.h"
 
 #if QN_LANES_NOW == 64
-/* Axes across the direction; the first one along the tile's rows, where it can be. It matters only for how near the discs come. */
+/* Axes across the direction; the first one along the rows of a tile of origins, where it can be. It matters only for how near the discs come. */
 static void see_across(qn_packet *p) {
+  const int tile = p->tile == QN_TILE_ORIGINS;
   double d[3], a[3], length2 = 0, along = 0, size2 = 0;
   for (int i = 0; i < 3; i++) {
     d[i] = p->d[i][0], length2 += d[i] * d[i];
   }
   const double inverse = 1 / sqrt(length2);
   for (int i = 0; i < 3; i++) {
-    d[i] *= inverse, a[i] = p->across[i][7] - p->across[i][0], along += a[i] * d[i];
+    d[i] *= inverse, a[i] = tile ? p->across[i][7] - p->across[i][0] : 0, along += a[i] * d[i];
   }
   for (int i = 0; i < 3; i++) {
     a[i] -= along * d[i], size2 += a[i] * a[i];
@@ -61,29 +63,74 @@ QN_INLINE void side_of(const double (*e)[3], const double (*v)[8], side *out) {
   }
 }
 
-/* Of a tile of origins, before a ball is looked at. */
-static void outline_make(walk *w) {
+static void outline_of_tile(walk *w, double far) {
   const qn_packet *p = w->f.p;
   outline *s = &w->outline;
-  double far = 0, width = 0;
+  double width = 0;
   for (int i = 0; i < 3; i++) {
     s->ref[i] = p->across[i][0] + p->up[i][0];
-    far += most(fabs(p->low[i]), fabs(p->high[i]));
     width += fabs(p->across[i][7] - p->across[i][0]) + fabs(p->up[i][7] - p->up[i][0]);
   }
   side x, y;
   side_of(p->plane, p->across, &x), side_of(p->plane, p->up, &y);
   for (int j = 0; j < 2; j++) {
     const double *c = x.middle[j], *r = y.middle[j], left[2] = {c[0], c[4]}, right[2] = {c[2], c[6]}, rows[4] = {r[0], r[2], r[4], r[6]};
-    fstore(s->place[j][0], ftable(left, rows)), fstore(s->place[j][1], ftable(right, rows));
+    fstore(s->place[j], ftable(left, rows)), fstore(s->place[j] + 8, ftable(right, rows));
   }
   const double half0 = x.half[0] + y.half[0], half1 = x.half[1] + y.half[1];
-  s->place_off = QN_OUTLINE_PLACE * far;
-  s->half = QN_WIDE_SLACK * (sqrt(half0 * half0 + half1 * half1) + QN_OUTLINE_FLOAT * width + s->place_off);
-  s->made = 1;
+  s->half = QN_WIDE_SLACK * (sqrt(half0 * half0 + half1 * half1) + QN_OUTLINE_FLOAT * width + QN_OUTLINE_PLACE * far);
 }
 
-/* The lanes that do not surely miss the ball, four by four. */
+static void outline_of_lanes(walk *w, double far) {
+  const qn_packet *p = w->f.p;
+  outline *s = &w->outline;
+  double width = 0, moved = 0;
+  for (int i = 0; i < 3; i++) {
+    s->ref[i] = p->o[i][0];
+    width += p->high[i] - p->low[i], moved += p->tile == QN_TILE_MOVED ? p->moved[i] : 0;
+  }
+  _Alignas(64) double at[2][QN_LANES];
+  for (unsigned k = 0; k < QN_LANES; k += QN_W) {
+    const vd x = vsub(vload(p->o[0] + k), vset(s->ref[0])), y = vsub(vload(p->o[1] + k), vset(s->ref[1])), z = vsub(vload(p->o[2] + k), vset(s->ref[2]));
+    for (int j = 0; j < 2; j++) {
+      const double *e = p->plane[j];
+      vstore(at[j] + k, vfma(vset(e[0]), x, vfma(vset(e[1]), y, vmul(vset(e[2]), z))));
+    }
+  }
+  for (unsigned k = 0; k < QN_LANES; k += 8) {
+    fstore(s->place[0] + k, fnarrow(at[0] + k)), fstore(s->place[1] + k, fnarrow(at[1] + k));
+  }
+  s->half = QN_WIDE_SLACK * (QN_OUTLINE_FLOAT * width + QN_OUTLINE_PLACE * far + 2 * QN_U * moved);
+}
+
+/* Before a ball is looked at. */
+static void outline_make(walk *w) {
+  const qn_packet *p = w->f.p;
+  double far = 0;
+  for (int i = 0; i < 3; i++) {
+    far += most(fabs(p->low[i]), fabs(p->high[i]));
+  }
+  if (p->tile == QN_TILE_ORIGINS) {
+    outline_of_tile(w, far);
+  } else {
+    outline_of_lanes(w, far);
+  }
+  w->outline.made = 1;
+}
+
+/* Whether a ball is looked at along the lanes; of lanes that are no tile, the first thing that is met is not: where there are no others, their places were made for nothing. */
+QN_INLINE int outline_pays(walk *w) {
+  const qn_packet *p = w->f.p;
+  return p->tile == QN_TILE_ORIGINS || (p->one_way && p->tile != QN_TILE_PAIRS && w->outline.asked++ != 0);
+}
+
+/* Of the eight places from k on, those from which a, c is farther than the root of most2. */
+QN_INLINE unsigned outline_misses(const outline *s, unsigned k, vf8 a, vf8 c, vf8 most2) {
+  const vf8 x = fsub(a, fload(s->place[0] + k)), z = fsub(c, fload(s->place[1] + k));
+  return fle(most2, ffma(x, x, fmul(z, z)));
+}
+
+/* The lanes that do not surely miss the ball, of a tile four by four. */
 QN_INLINE uint64_t outline_lanes(walk *w, const qn_piece_sphere *b) {
   const outline *s = &w->outline;
   if (!s->made) {
@@ -98,12 +145,14 @@ QN_INLINE uint64_t outline_lanes(walk *w, const qn_piece_sphere *b) {
     return ~(uint64_t)0;
   }
   const vf8 a = fset((float)at0), c = fset((float)at1), most2 = fset(limit);
-  unsigned misses[2];
-  for (int k = 0; k < 2; k++) {
-    const vf8 x = fsub(a, fload(s->place[0][k])), z = fsub(c, fload(s->place[1][k]));
-    misses[k] = fle(most2, ffma(x, x, fmul(z, z)));
+  if (w->f.p->tile == QN_TILE_ORIGINS) {
+    return ~((eights(outline_misses(s, 0, a, c, most2)) & 0x0f0f0f0f0f0f0f0fu) | (eights(outline_misses(s, 8, a, c, most2)) & 0xf0f0f0f0f0f0f0f0u));
   }
-  return ~((eights(misses[0]) & 0x0f0f0f0f0f0f0f0fu) | (eights(misses[1]) & 0xf0f0f0f0f0f0f0f0u));
+  uint64_t misses = 0;
+  for (unsigned k = 0; k < QN_LANES; k += 8) {
+    misses |= (uint64_t)outline_misses(s, k, a, c, most2) << k;
+  }
+  return ~misses;
 }
 #endif
 

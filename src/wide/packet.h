@@ -46,7 +46,8 @@ typedef struct qn_packet {
   float all_imin[3], all_imax[3]; /* of all lanes */
   double d_most, idd_most, shy;   /* at least sqrt(dd_max), 1 / dd_min and 1 / sqrt(QN_WIDE_SHY dd_min) */
   int axis[3];
-  double plane[2][3]; /* of tiles of origins: unit vectors across the direction and each other (outline.h) */
+  int one_way; /* all lanes have one direction */
+  double plane[2][3]; /* where they have: unit vectors across it and each other (outline.h) */
   qn_ends start; /* where the range begins, within what ends are taken for */
   _Alignas(64) double stop[QN_LANES];
   float soonest, latest; /* of all lanes: start and stop, rounded outward */

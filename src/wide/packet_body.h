@@ -215,16 +215,16 @@ QN_INLINE int push_children(const walk *w, uint32_t node, unsigned meets, const 
 }
 
 #if QN_LANES_NOW == 64
-/* The ball that a node's child is, of a tile that balls are seen from; else null. */
+/* The ball that a node's child is, or null. */
 QN_INLINE const qn_piece_sphere *ball_of(const walk *w, uint32_t child) {
-  const uint32_t line = (w->f.p->tile == QN_TILE_ORIGINS && (child & QN_BVH_LEAF)) ? w->scene->plain[child & ~QN_BVH_LEAF] : UINT32_MAX;
+  const uint32_t line = child & QN_BVH_LEAF ? w->scene->plain[child & ~QN_BVH_LEAF] : UINT32_MAX;
   const qn_piece_head *head = line != UINT32_MAX ? piece_in(w, line) : NULL;
   return head && head->kind == QN_PIECE_SPHERE ? (const qn_piece_sphere *)(const void *)head : NULL;
 }
 
-/* Whether all that a packet may meet is one ball, and no lane meets that. */
+/* Whether all that a tile may meet is one ball, and no lane meets that. */
 QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
-  const qn_piece_sphere *b = (meets & (meets - 1)) != 0 ? NULL : ball_of(w, w->normal->nodes[un->root].child[qn_trailing_zeros(meets)]);
+  const qn_piece_sphere *b = (meets & (meets - 1)) != 0 || w->f.p->tile != QN_TILE_ORIGINS ? NULL : ball_of(w, w->normal->nodes[un->root].child[qn_trailing_zeros(meets)]);
   return b && !outline_lanes(w, b);
 }
 #else
@@ -237,7 +237,7 @@ QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
 /* The lanes that may meet a node's child that is a term. */
 QN_INLINE uint64_t lanes_meet_term(walk *w, const waiting *at) {
 #if QN_LANES_NOW == 64
-  const qn_piece_sphere *b = ball_of(w, at->node);
+  const qn_piece_sphere *b = outline_pays(w) ? ball_of(w, at->node) : NULL;
   if (b) {
     return outline_lanes(w, b);
   }
@@ -419,7 +419,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){.budget = counts->budget ? counts->budget * QN_GROUPS : UINT64_MAX};
   memset(w.ties, 0, sizeof w.ties);
 #if QN_LANES_NOW == 64
-  w.outline.made = 0;
+  w.outline.made = 0, w.outline.asked = 0;
 #endif
   hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
   if (!facts(&w, packet)) { /* numbers for which no bound is given */

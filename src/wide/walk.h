@@ -27,11 +27,13 @@ typedef struct beam {
 #endif
 
 #if QN_LANES_NOW == 64
-/* A tile of origins seen along its direction (outline.h): where the middles of each four lanes lie, the left and the right ones of each eight, along two axes, from ref. */
+/* Lanes seen along their one direction (outline.h), along two axes from ref: of a tile of origins the middles of each four lanes, the left and then the right ones of each eight; else
+   each lane. half: no lane is farther from its place. */
 typedef struct outline {
   int made;
-  double ref[3], half, place_off; /* half: no lane is farther from its middle */
-  _Alignas(32) float place[2][2][8];
+  unsigned asked;
+  double ref[3], half;
+  _Alignas(32) float place[2][QN_LANES];
 } outline;
 #endif
 

@@ -1,4 +1,4 @@
-/* Tiles and balls seen along the rays (wide/outline.h): a lane that is said to miss a ball does so in rationals, with every stored number as far off as its contract allows.
+/* Tiles, other packets of one direction, and balls seen along the rays (wide/outline.h): a lane that is said to miss a ball does so in rationals, with every stored number as far off as its contract allows.
    Balls are laid so that the line of one lane, mostly the nearest of its four, touches them or nearly so. */
 #define QN_LANES_NOW 64
 #ifndef QN_ISA_AVX2
@@ -71,6 +71,23 @@ static int make_tile(qn_packet *p) {
   return 1;
 }
 
+/* Lanes of the same direction that lie in no order, at any depth; their starts are exact, or within u moved. */
+static void scatter(qn_packet *p) {
+  const double shake = one_in(3) ? 0 : 1, deep = one_in(2) ? 0 : ldexp(part(), below(20));
+  for (unsigned k = 0; k < QN_LANES; k++) {
+    const unsigned c = (unsigned)below(8), r = (unsigned)below(8);
+    const double along = deep * part();
+    for (int i = 0; i < 3; i++) {
+      const double wide = fabs(p->across[i][7] - p->across[i][0]) + fabs(p->up[i][7] - p->up[i][0]);
+      p->o[i][k] = p->across[i][c] + p->up[i][r] + shake * wide * part() + along * p->d[i][0];
+    }
+  }
+  p->tile = one_in(2) ? QN_TILE_NONE : QN_TILE_MOVED;
+  for (int i = 0; i < 3; i++) {
+    p->moved[i] = fabs(p->o[i][0]) * ldexp(fabs(part()), below(40));
+  }
+}
+
 /* Where the ray comes nearest to the centre, from there. */
 static void nearest(const qn_packet *p, unsigned lane, const double c[3], double out[3]) {
   const double d[3] = {p->d[0][lane], p->d[1][lane], p->d[2][lane]};
@@ -90,6 +107,9 @@ static int misses(const qn_packet *p, unsigned lane, const qn_piece_sphere *b) {
     mpq_set_d(y, p->o[i][lane]);
     mpq_set_d(x, b->centre[i]), mpq_sub(y, y, x);
     mpq_set_d(x, to[i] > 0 ? (double)b->off : -(double)b->off), mpq_sub(y, y, x);
+    if (p->tile == QN_TILE_MOVED) {
+      mpq_set_d(x, to[i] > 0 ? QN_U * p->moved[i] : -QN_U * p->moved[i]), mpq_sub(y, y, x);
+    }
     mpq_set_d(x, p->d[i][lane]), mpq_mul(x, x, y), mpq_add(yd, yd, x);
     mpq_set_d(x, p->d[i][lane]), mpq_mul(x, x, x), mpq_add(dd, dd, x);
     mpq_mul(x, y, y), mpq_add(yy, yy, x);
@@ -101,8 +121,7 @@ static int misses(const qn_packet *p, unsigned lane, const qn_piece_sphere *b) {
   return out;
 }
 
-static void certain(void **state) {
-  (void)state;
+static void certain(int scattered) {
   static qn_packet p;
   static walk w;
   static struct quoin_scene scene;
@@ -112,14 +131,19 @@ static void certain(void **state) {
     if (!make_tile(&p)) {
       continue;
     }
+    if (scattered) {
+      scatter(&p);
+    }
     p.new_origins = p.new_directions = 1;
     if (!facts(&w, &p)) {
       continue;
     }
-    fill_tile(&p, p.o);
+    if (!scattered) {
+      fill_tile(&p, p.o);
+    }
     w.outline.made = 0;
     for (int balls = 0; balls < 3; balls++) {
-      const unsigned lane = (unsigned)below(64), four = lane & ~3u;
+      const unsigned lane = (unsigned)below(64), four = lane & ~3u, together = scattered ? 1 : 4;
       const double d[3] = {p.d[0][0], p.d[1][0], p.d[2][0]}, apart = fabs(p.across[0][1] - p.across[0][0]) + fabs(p.across[1][1] - p.across[1][0]) + fabs(p.up[2][1] - p.up[2][0]);
       double away[3], out[3];
       for (int i = 0; i < 3; i++) {
@@ -148,7 +172,7 @@ static void certain(void **state) {
         nearest(&p, i, b.centre, to);
         const double far = sqrt(dot(to, to));
         const int near = far < 1.01 * r + 0x1p-40 * (fabs(p.o[0][i]) + fabs(p.o[1][i]) + fabs(p.o[2][i]) + fabs(on) * sqrt(dot(d, d)));
-        kept += (may >> i & 1) && i / 4 == lane / 4, idle += (may >> i & 1) && i / 4 == lane / 4 && far > 2 * (r + apart);
+        kept += (may >> i & 1) && i / together == lane / together, idle += (may >> i & 1) && i / together == lane / together && far > 2 * (r + apart);
         if (!(may >> i & 1)) {
           said++, close += far < 1.002 * r;
           assert_true(!near || misses(&p, i, &b));
@@ -157,7 +181,15 @@ static void certain(void **state) {
     }
   }
   print_message("%u lanes miss, %u of them by little; of the touched fours %u lanes kept, %u of them far away\n", said, close, kept, idle);
-  assert_true(said > share_min(1000000) && close > share_min(1000) && kept > share_min(100000) && idle < kept / 20);
+  assert_true(said > share_min(1000000) && close > share_min(1000) && kept > share_min(scattered ? 50000 : 100000) && idle < kept / 20);
+}
+static void tiles(void **state) {
+  (void)state;
+  certain(0);
+}
+static void scattered_lanes(void **state) {
+  (void)state;
+  certain(1);
 }
 
 /* Where numbers leave the range of floats nothing is said to miss that does not. */
@@ -192,6 +224,6 @@ static void beyond_floats(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(certain), cmocka_unit_test(beyond_floats)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(tiles), cmocka_unit_test(scattered_lanes), cmocka_unit_test(beyond_floats)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
