@@ -27,6 +27,7 @@ static void lane_points_of(const walk *w, const lanes *at, uint64_t mask, lane_p
       vd slack = vfma(vadd(vabs(step), vabs(x)), vset(QN_WIDE_SPOT), vmul(off, vabs(d)));
       slack = vadd(slack, vset(2 * QN_U * w->f.share[i]));
       vstore(s->low[i] + o, vpick(in, vsub(x, slack), none));
+      /* cppcheck-suppress uninitvar ; written here */
       vstore(s->high[i] + o, vpick(in, vadd(x, slack), vsub(vset(0), none)));
     }
   }
