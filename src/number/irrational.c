@@ -424,6 +424,9 @@ static int power(qn_ctx *ctx, qn_num a, qn_num b, qn_num *out) {
     return 1;
   }
   qn_rat x = qn_num_rat(ctx, a), y = qn_num_rat(ctx, b);
+  if (ctx->failed != QUOIN_OK) { /* then they are no numbers */
+    return 1;
+  }
   if (qn_int_bits(y.den) == 1) { /* an integer beyond 64 bits */
     int even = (y.num.d[0] & 1) == 0, unit = qn_int_bits(x.num) == 1 && qn_int_bits(x.den) == 1;
     if (!unit) {
