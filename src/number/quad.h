@@ -44,7 +44,8 @@ double qn_root_to_double(qn_ctx *ctx, qn_root x);
 double qn_rat_to_double(qn_ctx *ctx, qn_int num, qn_int den);
 /* Whether the root is rational, and then num/den, den > 0 (not reduced). */
 int qn_root_rational(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den);
-/* A rational strictly between two roots x < y (num/den, den > 0, den a power of two). */
+/* A rational strictly between two roots x < y, near the middle and of few bits (num/den, den > 0, den a power of two). Of rounded quadratics, which tie by a rule that is not transitive, the
+   stored forms may have the roots in another order; the context then fails with QUOIN_E_LIMIT. Cost: some us, as long as the roots agree to less than some thousand bits. */
 void qn_root_between(qn_ctx *ctx, qn_root x, qn_root y, qn_int *num, qn_int *den);
 /* A rational strictly below / above a root. */
 void qn_root_below(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den);

@@ -4,6 +4,7 @@
    formula cancels. s = floor(2^k sqrt d) gives s <= 2^k sqrt d < s + 1, so S 2^k lies in [|h| 2^k + s, |h| 2^k + s + 1).
    When both ends round to one double that is the answer; else they round to neighbours (the enclosure is 2^-GUARD_BITS
    wide, relatively) and the exact order of the root and the middle between them decides. */
+#include "number/int_limbs.h"
 #include "number/quad_parts.h"
 
 #include <float.h>
@@ -199,14 +200,73 @@ static qn_quad stored(const qn_quad *q) {
   return p;
 }
 
+/* A number m 2^e within a few units of 2^e; 0, or m has at least so many bits as were asked for. */
+typedef struct rough { qn_int m; int64_t e; } rough;
+
+/* Its first bits, 2^*e of them dropped. */
+static qn_int leading(qn_ctx *ctx, qn_int v, size_t bits, int64_t *e) {
+  const size_t all = qn_int_bits(v), drop = all > bits ? all - bits : 0;
+  *e += (int64_t)drop;
+  return qn_int_shr(ctx, v, drop);
+}
+
+/* Roots of long numbers from their first bits alone: nothing cancels in either formula. */
+static rough approximate(qn_ctx *ctx, qn_root x, size_t bits) {
+  const qn_quad *q = x.q;
+  const size_t more = bits + 4;
+  qn_int n, d;
+  int64_t en = 0, ed = 0;
+  int negative = 0;
+  if (!qn_root_plain_(ctx, x, &n, &d)) {
+    const qn_int h = q->sign_a < 0 ? qn_int_neg(q->h.v) : q->h.v, c = q->sign_a < 0 ? qn_int_neg(q->c.v) : q->c.v;
+    const size_t all = qn_int_bits(q->disc.v), half = all > 2 * more ? (all - 2 * more) / 2 : 0; /* S in units of 2^half */
+    const size_t finer = all < 2 * more ? more - all / 2 : 0;                                    /* or of 2^-finer */
+    int square;
+    const qn_int root = qn_int_sqrt(ctx, finer ? qn_int_shl(ctx, q->disc.v, 2 * finer) : qn_int_shr(ctx, q->disc.v, 2 * half), &square);
+    const qn_int size = qn_int_abs(h), S = qn_int_add(ctx, root, finer ? qn_int_shl(ctx, size, finer) : qn_int_shr(ctx, size, half));
+    const int64_t unit = (int64_t)half - (int64_t)finer;
+    negative = qn_int_sign(h) > 0;
+    if ((qn_int_sign(h) <= 0) == (x.which == 1)) {
+      n = S, en = unit, d = qn_int_abs(q->a.v);
+    } else {
+      n = c, d = S, ed = unit;
+    }
+  }
+  n = leading(ctx, n, more, &en), d = leading(ctx, d, more, &ed);
+  if (ctx->failed != QUOIN_OK || qn_int_sign(n) == 0 || qn_int_sign(d) == 0) {
+    return (rough){QN_INT_ZERO_, 0};
+  }
+  const size_t wanted = bits + qn_int_bits(d), there = qn_int_bits(n), up = wanted > there ? wanted - there : 0;
+  qn_int quotient, rest;
+  qn_int_divmod(ctx, qn_int_shl(ctx, n, up), d, &quotient, &rest);
+  return (rough){negative ? qn_int_neg(quotient) : quotient, en - ed - (int64_t)up};
+}
+
+/* In units of 2^e, of which nothing is known beyond. */
+static qn_int in_units(qn_ctx *ctx, rough v, int64_t e) { return v.e >= e ? v.m : qn_int_shr(ctx, v.m, (size_t)(e - v.e)); }
+
+/* Near the middle, and of few bits: roots may be 2^-10000 apart, and 10000 bits long. What is proposed is asked of both roots exactly. */
 void qn_root_between(qn_ctx *ctx, qn_root x, qn_root y, qn_int *num, qn_int *den) {
+  enum { APART = 9 }; /* bits of units, which the few that either root is off do not matter to */
+  const int rounded = qn_quad_rounded_(x.q) || qn_quad_rounded_(y.q);
   qn_quad p = stored(x.q), q = stored(y.q);
   x.q = &p;
   y.q = &q;
-  for (size_t k = 3; !ctx->failed; k *= 2) { /* ends: distinct roots are some distance apart */
-    qn_int sum = qn_int_add(ctx, qn_root_scaled_(ctx, x, k), qn_root_scaled_(ctx, y, k));
-    *num = sum;
-    *den = qn_int_shl(ctx, qn_int_from(ctx, 1), k + 1);
+  if (rounded && qn_root_cmp(ctx, x, y) >= 0) {
+    qn_ctx_fail_(ctx, QUOIN_E_LIMIT);
+  }
+  for (size_t bits = 64; !ctx->failed; bits *= 2) { /* ends: distinct roots are some distance apart */
+    const rough a = approximate(ctx, x, bits), b = approximate(ctx, y, bits);
+    int64_t e = qn_int_sign(a.m) == 0 || (qn_int_sign(b.m) != 0 && b.e > a.e) ? b.e : a.e;
+    const qn_int low = in_units(ctx, a, e), high = in_units(ctx, b, e), gap = qn_int_sub(ctx, high, low);
+    const size_t wide = qn_int_bits(gap);
+    if (wide < APART) {
+      continue;
+    }
+    *num = qn_int_shr(ctx, qn_int_add(ctx, low, high), wide - APART);
+    e += (int64_t)(wide - APART) - 1;
+    *den = qn_int_shl(ctx, qn_int_from(ctx, 1), e < 0 ? (size_t)-e : 0);
+    *num = e > 0 ? qn_int_shl(ctx, *num, (size_t)e) : *num;
     if (qn_root_cmp_rat(ctx, x, *num, *den) < 0 && qn_root_cmp_rat(ctx, y, *num, *den) > 0) {
       return;
     }

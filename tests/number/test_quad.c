@@ -431,6 +431,56 @@ static void test_rounded_middles(void **state) {
   assert_true(qn_root_to_double(&ctx, (qn_root){&q, 0}) == 0);
 }
 
+static qn_quad line_of(qn_int num, qn_int den) { /* den t - num, twice */
+  qn_quad q;
+  qn_quad_make(&ctx, qn_x(qn_int_from(&ctx, 0)), qn_x(den), qn_x(qn_int_neg(qn_int_shl(&ctx, num, 1))), &q);
+  return q;
+}
+
+/* What is between two roots lies in the middle half of them, and has no more bits than it takes. */
+static void test_between(void **state) {
+  (void)state;
+  clear();
+  for (int n = 0; n < 2000; n++) {
+    const size_t gap = 1 + (size_t)(next() % 3000), scale = (size_t)(next() % 5000);
+    const int64_t third = n % 4 == 0 ? 0 : pick(1 << 20), wide = 1 + (int64_t)(next() % 1000);
+    /* third/3 2^-scale and (third/3 + wide 2^-gap) 2^-scale, over 3 2^(gap + scale) */
+    const qn_int den = qn_int_mul(&ctx, qn_int_from(&ctx, 3), qn_int_shl(&ctx, qn_int_from(&ctx, 1), gap + scale));
+    const qn_int low = qn_int_shl(&ctx, qn_int_from(&ctx, third), gap), high = qn_int_add(&ctx, low, qn_int_from(&ctx, 3 * wide));
+    const qn_quad p = line_of(low, den), q = line_of(high, den);
+    qn_int num, two;
+    qn_root_between(&ctx, (qn_root){&p, 0}, (qn_root){&q, 0}, &num, &two);
+    const qn_int there = qn_int_mul(&ctx, qn_int_shl(&ctx, num, 2), den), quarter = qn_int_from(&ctx, 3 * wide); /* over 4 den two */
+    const qn_int least = qn_int_mul(&ctx, qn_int_add(&ctx, qn_int_shl(&ctx, low, 2), quarter), two), most = qn_int_mul(&ctx, qn_int_sub(&ctx, qn_int_shl(&ctx, high, 2), quarter), two);
+    assert_true(qn_int_cmp(there, least) > 0 && qn_int_cmp(there, most) < 0);
+    assert_true(qn_int_bits(num) <= 12 + (third == 0 ? 0 : gap + 21));
+    if (n % 100 == 99) {
+      clear();
+    }
+  }
+  /* Roots of two quadratics that agree to 6500 bits: 2^13000 t^2 + 2 h t - 1, h 1 and 2. */
+  qn_quad p, q;
+  const qn_xint a = qn_x_shl(&ctx, qn_x(qn_int_from(&ctx, 1)), 13000), c = qn_x(qn_int_from(&ctx, -1));
+  qn_quad_make(&ctx, a, qn_x(qn_int_from(&ctx, 2)), c, &p);
+  qn_quad_make(&ctx, a, qn_x(qn_int_from(&ctx, 1)), c, &q);
+  for (int which = 0; which < 2; which++) {
+    const qn_root x = {&p, which}, y = {&q, which};
+    qn_int num, den;
+    qn_root_between(&ctx, x, y, &num, &den);
+    assert_true(qn_root_cmp_rat(&ctx, x, num, den) < 0 && qn_root_cmp_rat(&ctx, y, num, den) > 0);
+    assert_in_range(qn_int_bits(num), 6000, 6600);
+  }
+  assert_int_equal(ctx.failed, QUOIN_OK);
+  /* Rounded ones may have another order as they are stored. */
+  const qn_xint one = qn_x_rounded(qn_int_shl(&ctx, qn_int_from(&ctx, 1), 255)), zero = qn_x(qn_int_from(&ctx, 0));
+  qn_quad_make(&ctx, zero, one, qn_x_rounded(qn_int_neg(qn_int_add(&ctx, qn_int_shl(&ctx, qn_int_from(&ctx, 1), 256), qn_int_from(&ctx, 1)))), &p);
+  qn_quad_make(&ctx, zero, one, qn_x_rounded(qn_int_neg(qn_int_shl(&ctx, qn_int_from(&ctx, 1), 256))), &q);
+  qn_int num, den;
+  qn_root_between(&ctx, (qn_root){&p, 0}, (qn_root){&q, 0}, &num, &den);
+  assert_int_equal(ctx.failed, QUOIN_E_LIMIT);
+  clear();
+}
+
 /* A refused allocation is told by the context, and nothing hangs. */
 static void test_memory(void **state) {
   (void)state;
@@ -455,7 +505,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_kinds),      cmocka_unit_test(test_order),        cmocka_unit_test(test_to_double), cmocka_unit_test(test_to_double_middles),
     cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_rounded_far),
-    cmocka_unit_test(test_rounded_middles), cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_rounded_middles), cmocka_unit_test(test_between), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
