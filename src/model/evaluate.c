@@ -196,9 +196,10 @@ static void begin(qn_evaluator *ev, const qn_statement *st, uint32_t parent, uin
   case QN_CLASS_QUIET:
     return;
   case QN_CLASS_LATER:
+  case QN_CLASS_FLATTENED:
   case QN_CLASS_LATER_GROUP:
-    qn_tell(ev->reporter, QN_Q0402, st->offset, ev->syntax->names.items[st->word].length, w->what, NULL,
-            "'%s' is not supported yet", w->word);
+    qn_tell(ev->reporter, QN_Q0402, st->offset, ev->syntax->names.items[st->word].length, w->what,
+            w->class == QN_CLASS_FLATTENED ? QN_FLATTEN : NULL, "'%s' is not supported yet", w->word);
     *into = w->class == QN_CLASS_LATER_GROUP ? parent : QN_NO_NODE;
     return;
   case QN_CLASS_SOLID:

@@ -299,7 +299,7 @@ qn_value qn_call_function(qn_evaluator *ev, uint32_t name, uint32_t offset, cons
     }
     for (size_t i = 0; i < LATER; i++) {
       if (strcmp(later[i], text->text) == 0) {
-        qn_tell(ev->reporter, QN_Q0304, offset, text->length, NULL, NULL, "the function '%.60s' is not supported yet", text->text);
+        qn_tell(ev->reporter, QN_Q0304, offset, text->length, NULL, QN_FLATTEN, "the function '%.60s' is not supported yet", text->text);
         return QN_BAD;
       }
     }

@@ -13,6 +13,7 @@ typedef enum qn_word_class {
   QN_CLASS_SAY,    /* echo, assert: any children are a group */
   QN_CLASS_QUIET,  /* nothing of its own: its cause was told at its `if` */
   QN_CLASS_LATER,  /* not supported yet; its children are other things than solids, or depend on it */
+  QN_CLASS_FLATTENED, /* as LATER; it is gone when OpenSCAD has flattened the file */
   QN_CLASS_LATER_GROUP /* not supported yet; its children are solids and are looked at */
 } qn_word_class;
 

@@ -218,7 +218,7 @@ static int operand(qn_parser *p) {
       return 1;
     }
     if (unsupported(t.name)) {
-      qn_tell(p->reporter, QN_Q0210, t.offset, t.length, NULL, NULL, "%s is not supported yet", unsupported(t.name));
+      qn_tell(p->reporter, QN_Q0210, t.offset, t.length, NULL, QN_FLATTEN, "%s is not supported yet", unsupported(t.name));
       return -2;
     }
     next(p);
@@ -343,7 +343,7 @@ static int after_operand(qn_parser *p, size_t from) {
       return 0;
     }
     if (top_is(p, W_VECTOR)) {
-      qn_tell(p->reporter, QN_Q0210, t.offset, 1, NULL, NULL, "a range [from : to] is not supported yet");
+      qn_tell(p->reporter, QN_Q0210, t.offset, 1, NULL, QN_FLATTEN, "a range [from : to] is not supported yet");
       return -2;
     }
     return 2;
