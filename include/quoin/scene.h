@@ -109,7 +109,7 @@ QUOIN_API void quoin_work_stats(const quoin_work *work, quoin_stats *out);
 
 typedef enum quoin_side { QUOIN_OUTSIDE = 0, QUOIN_BOUNDARY = 1, QUOIN_INSIDE = 2 } quoin_side;
 
-/* The side of a point (design S6). Exact. The doubles mean themselves. */
+/* The side of a point (docs/exactness.md says what boundary is). Exact. The doubles mean themselves. */
 QUOIN_API quoin_status quoin_point_side(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_side *out);
 /* n points, xyz after xyz. */
 QUOIN_API quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_t n, const double *points, quoin_side *out);
@@ -145,7 +145,7 @@ typedef struct quoin_intervals {
   size_t count;
   const quoin_interval *inside;   /* stretches inside the solid */
   size_t boundary_count;
-  const quoin_interval *boundary; /* stretches that run in the boundary (S7) */
+  const quoin_interval *boundary; /* stretches that run in the boundary */
   size_t contact_count;
   const quoin_end *contacts;      /* points where the ray touches the solid between stretches outside it */
 } quoin_intervals;
