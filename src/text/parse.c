@@ -113,10 +113,16 @@ static void open_frame(qn_parser *p, uint32_t statement, int block, uint32_t bra
                          .last_assignment = QN_NO_STATEMENT, .brace = brace, .block = (uint8_t)block};
 }
 
+/* The innermost frame's statement is complete; behind an `if` an `else` may stand, and behind an `else` that of an `if` further out. */
+static void close_frame(qn_parser *p) {
+  uint32_t word = p->syntax->statements[p->open[--p->open_count].statement].word;
+  p->behind_if |= word == QN_WORD_IF || word == QN_WORD_ELSE;
+}
+
 /* A statement is complete: so are those that waited for it as their one child. */
 static void complete(qn_parser *p) {
   while (p->open_count > 1 && !p->open[p->open_count - 1].block) {
-    p->open_count--;
+    close_frame(p);
   }
 }
 
@@ -158,6 +164,7 @@ static void panic(qn_parser *p) {
     }
   }
   complete(p);
+  p->behind_if = 1; /* it may have been one that was passed over */
 }
 
 static void expected(qn_parser *p, const char *what) {
@@ -333,8 +340,8 @@ static void declaration(qn_parser *p, qn_token word) {
   }
 }
 
-/* word(arguments), then its child is expected. */
-static void call(qn_parser *p, uint32_t flags) {
+/* word(arguments), then its child is expected; behind_if: an `if` has just ended. */
+static void call(qn_parser *p, uint32_t flags, int behind_if) {
   qn_token word = p->lexer.token;
   switch (word.name) {
   case QN_WORD_MODULE:
@@ -369,6 +376,10 @@ static void call(qn_parser *p, uint32_t flags) {
     return;
   }
   if (word.name == QN_WORD_ELSE) {
+    if (!behind_if) {
+      qn_tell(p->reporter, QN_Q0201, word.offset, word.length, "it must stand right behind an if(...) and its solid", "remove the word 'else'",
+              "this 'else' belongs to no 'if'");
+    }
     open_frame(p, n, 0, 0, 0);
     return;
   }
@@ -420,7 +431,11 @@ static void close_block(qn_parser *p) {
     return;
   }
   int inlined = p->open[p->open_count - 1].owner != p->open_count - 1;
-  p->open_count--;
+  if (inlined) {
+    p->open_count--;
+  } else {
+    close_frame(p);
+  }
   next(p);
   if (!inlined) {
     complete(p);
@@ -429,6 +444,8 @@ static void close_block(qn_parser *p) {
 
 static void statement(qn_parser *p) {
   uint32_t flags = 0;
+  int behind_if = p->behind_if;
+  p->behind_if = 0;
   for (;;) {
     uint32_t sign = is(p, '%')   ? QN_SIGN_BACKGROUND
                     : is(p, '#') ? QN_SIGN_HIGHLIGHT
@@ -442,7 +459,7 @@ static void statement(qn_parser *p) {
     next(p);
   }
   if (p->lexer.token.kind == QN_T_NAME) {
-    call(p, flags);
+    call(p, flags, behind_if);
   } else if (flags) {
     expected(p, "a word after the modifier");
     panic(p);

@@ -34,6 +34,7 @@ typedef struct qn_parser {
   size_t waiting_count, waiting_capacity;
   qn_open *open;
   size_t open_count, open_capacity;
+  int behind_if;       /* an `if` or `else` has just ended: an `else` may follow */
   size_t joined;       /* op count where two branches met last: a literal before it is not an operand of its own */
   quoin_status failed; /* stop at once */
 } qn_parser;

@@ -213,6 +213,8 @@ static void statements(void **state) {
   tree("a(x == 1, y = 2, z /* c */ = 3);", "{a(,y,z){}}", "");
   tree("a(1,);", "{a(){}}", "");
   tree("if (a) b(); else c();", "{if{b{}}else{c{}}}", "");
+  tree("if (a) if (b) c(); else d(); else e();", "{if{if{c{}}}else{d{}}else{e{}}}", "");
+  tree("a() if (b) { c(); } else if (d) e(); else f();", "{a{if{c{}}}else{if{e{}}}else{f{}}}", "");
   tree("for (i = [0 : 1 : 3]) { b(); }", "{for{b{}}}", "");
   tree("module m(a, b = 2) { c(); } d();", "{module{c{}}d{}}", "");
   tree("function f(a) = a + 1; d();", "{function{}d{}}", "");
@@ -234,6 +236,11 @@ static void recovery(void **state) {
   tree("a() x = 1; b();", "{a{}b{}}", "Q0206");
   tree("x = [for (i = 0; i < 3; i = i + 1) i]; b();", "{x=b{}}", "Q0210");
   tree("x = [1 : 2 : 3]; b([for (a = v) a], 2);", "{x=b(,)?{}}", "Q0210 Q0210");
+  tree("a(); else b();", "{a{}else{b{}}}", "Q0201");
+  tree("{ if (a) b(); } else c();", "{if{b{}}else{c{}}}", "Q0201");
+  tree("if (a) b(); ; else c();", "{if{b{}}else{c{}}}", "Q0201");
+  tree("a() else b();", "{a{else{b{}}}}", "Q0201");
+  tree("if a() b(); else c();", "{if?{}else{c{}}}", "Q0201"); /* one cause: the 'if' may be what was passed over */
   tree("a(@) b();", "{a()?{b{}}}", "Q0102");
 }
 
