@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -227,6 +228,19 @@ static int is_one_file(const char *a, const char *b) {
   return strcmp(a, "-") != 0 && strcmp(b, "-") != 0 && stat(a, &x) == 0 && stat(b, &y) == 0 && S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
+/* Does the path's suffix say another kind of file than PNG? */
+static int other_kind(const char *path) {
+  static const char *const kinds[] = {"3mf", "amf", "bmp", "csg", "dxf", "gif", "jpeg", "jpg",  "obj", "off",
+                                      "pdf", "pgm", "ppm", "scad", "stl", "svg", "tif", "tiff", "webp"};
+  const char *slash = strrchr(path, '/'), *suffix = strrchr(slash ? slash : path, '.');
+  for (size_t i = 0; suffix && i < sizeof kinds / sizeof *kinds; i++) {
+    if (strcasecmp(suffix + 1, kinds[i]) == 0) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
 static int run(const cli_command *self, int argc, char **argv) {
   job j = {.options = quoin_render_options_default(), .projection = QUOIN_PERSPECTIVE};
   cli_common common;
@@ -250,6 +264,11 @@ static int run(const cli_command *self, int argc, char **argv) {
   if (is_one_file(j.output, path)) {
     cli_quoted q;
     cli_error("the picture would replace its own model %s; give another file to -o", cli_quote(&q, path));
+    return cli_try_help(self);
+  }
+  if (other_kind(j.output)) {
+    cli_quoted q;
+    cli_error("%s does not name a PNG file, and no other is written; give -o a name that ends in .png", cli_quote(&q, j.output));
     return cli_try_help(self);
   }
   cli_loaded loaded;

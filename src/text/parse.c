@@ -268,8 +268,19 @@ static int arguments(qn_parser *p, uint32_t statement) {
 
 /* --- statements -------------------------------------------------------------------------------------------------- */
 
+/* Is it a word that no variable can have as its name? */
+static int reserved(uint32_t word) {
+  return word != QN_WORD_NONE && word < QN_WORD_FN && word != QN_WORD_INTERSECTION_FOR && word != QN_WORD_ASSIGN;
+}
+
 /* name = expression ; with the name read and '=' the current token. */
 static void assignment(qn_parser *p, qn_token name) {
+  if (reserved(name.name)) {
+    qn_tell(p->reporter, QN_Q0201, name.offset, name.length, NULL, "take another name", "'%s' is a word of the language, not a variable",
+            p->syntax->names.items[name.name].text);
+    panic(p);
+    return;
+  }
   if (waits_for_child(p)) {
     qn_tell(p->reporter, QN_Q0206, name.offset, name.length, "a solid was expected here", "put it before, or inside { }",
             "an assignment cannot be a child");

@@ -169,6 +169,16 @@ class Wrong(Case):
         self.bad(run("render", m, "-o", self.folder, "--imgsize", "9,9"), 4, "irectory")
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["bad.scad", "model.scad"])
 
+    def test_only_names_of_pictures_that_are_written(self):
+        m = self.model("sphere(1);")
+        for name in ("out.jpg", "out.STL", ".svg"):
+            out = self.folder / name
+            self.bad(run("render", m, "-o", out, "--imgsize", "9,9"), 2, name, "PNG")
+            self.assertFalse(out.exists())
+        for name in ("out.PNG", "out", "out.v2", "a.jpg.png"):
+            self.good(run("render", m, "-o", self.folder / name, "--imgsize", "9,9"), "")
+            self.assertEqual((self.folder / name).read_bytes()[:4], b"\x89PNG")
+
     def test_a_model_is_not_replaced_by_its_picture(self):
         m = self.model(BALL)
         (self.folder / "other.png").symlink_to(m)

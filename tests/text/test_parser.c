@@ -241,6 +241,8 @@ static void recovery(void **state) {
   tree("if (a) b(); ; else c();", "{if{b{}}else{c{}}}", "Q0201");
   tree("a() else b();", "{a{else{b{}}}}", "Q0201");
   tree("if a() b(); else c();", "{if?{}else{c{}}}", "Q0201"); /* one cause: the 'if' may be what was passed over */
+  tree("true = 1; if = 2; else = 3; a();", "{a{}}", "Q0201 Q0201 Q0201");
+  tree("assign = 1; $fn = 2;", "{assign=$fn=}", "");
   tree("a(@) b();", "{a()?{b{}}}", "Q0102");
 }
 
