@@ -192,21 +192,29 @@ static int one_is_alone(patch *p, const qn_packet *packet, const qn_packet_hits 
   return ask(p, min, max);
 }
 
+/* The same of several lanes, with the largest error, step and place of any in place of each one's own. */
 static int some_are_alone(patch *p, const qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes) {
-  double min[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, max[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  p->surface = hits->surface[qn_trailing_zeros(lanes)], p->one = 0;
+  const unsigned first = qn_trailing_zeros(lanes);
+  double min[3], max[3], d[3] = {0}, step[3] = {0}, error = 0;
+  p->surface = hits->surface[first], p->one = 0;
+  for (int i = 0; i < 3; i++) {
+    min[i] = max[i] = packet->o[i][first] + hits->t[first] * packet->d[i][first];
+  }
   for (uint64_t m = lanes; m; m &= m - 1) {
     const unsigned lane = qn_trailing_zeros(m);
     if (hits->surface[lane] != p->surface) {
       return 0;
     }
+    error = hits->error[lane] > error ? hits->error[lane] : error;
     for (int i = 0; i < 3; i++) {
-      const double d = packet->d[i][lane], step = hits->t[lane] * d, x = packet->o[i][lane] + step;
-      const double off = QN_SLACK * (hits->error[lane] * fabs(d) + QN_U * (fabs(step) + 2 * fabs(x))) + QN_POINT_TINY;
-      min[i] = x - off < min[i] ? x - off : min[i], max[i] = x + off > max[i] ? x + off : max[i];
+      const double e = packet->d[i][lane], s = hits->t[lane] * e, x = packet->o[i][lane] + s;
+      min[i] = x < min[i] ? x : min[i], max[i] = x > max[i] ? x : max[i];
+      d[i] = fabs(e) > d[i] ? fabs(e) : d[i], step[i] = fabs(s) > step[i] ? fabs(s) : step[i];
     }
   }
   for (int i = 0; i < 3; i++) {
+    const double most = -min[i] > max[i] ? -min[i] : max[i], off = QN_SLACK * (error * d[i] + QN_U * (step[i] + 2 * most)) + QN_POINT_TINY;
+    min[i] -= off, max[i] += off;
     p->weight[i] = 0;
     p->c[i] = 0.5 * (min[i] + max[i]);
     p->e[i] = QN_SLACK * (max[i] - p->c[i] > p->c[i] - min[i] ? max[i] - p->c[i] : p->c[i] - min[i]);

@@ -34,7 +34,12 @@ static void patience_learns(qn_patience *p, uint64_t leaves_of_a_ray) {
   p->learns = 0;
 }
 
-void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
+static unsigned lanes_of(uint64_t mask) {
+  return mask == ~(uint64_t)0 ? QN_LANES : mask ? (unsigned)__builtin_popcountll(mask) : 0;
+}
+
+/* few: the packet's, where a constant spares what its kind has no need of. */
+QN_INLINE void run(quoin_work *work, qn_packet *packet, int few, qn_packet_hits *hits) {
   const quoin_scene *scene = work->scene;
   hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
   if (!scene->normal.made) {
@@ -42,7 +47,7 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   }
   qn_wide_counts wide = {.budget = patience_budget(&work->patience)};
   const qn_wide *bodies = work->wide;
-  const qn_first_fn body = packet->few == QN_MANY_LANES ? bodies->first : packet->few == QN_FEW_LANES ? bodies->few : packet->few == QN_ONE_LANE ? bodies->one : bodies->each;
+  const qn_first_fn body = few == QN_MANY_LANES ? bodies->first : few == QN_FEW_LANES ? bodies->few : few == QN_ONE_LANE ? bodies->one : bodies->each;
   if (wide.budget == 0) {
     /* What the body derives from the rays is made all the same: the next packet may say that it keeps their directions. */
     const uint64_t live = packet->live;
@@ -54,11 +59,11 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
     qn_counts *counts = qn_scratch_counts(work->scratch);
     body(scene, packet, hits, &wide);
     counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
-    const unsigned lanes = ~packet->live ? (unsigned)__builtin_popcountll(packet->live) : QN_LANES, unsure = hits->unsure ? (unsigned)__builtin_popcountll(hits->unsure) : 0;
+    const unsigned lanes = few == QN_ONE_LANE ? 1 : lanes_of(packet->live), unsure = few == QN_ONE_LANE ? hits->unsure & 1 : lanes_of(hits->unsure);
     counts->rays += lanes - unsure;
     counts->exact_rays += unsure;
     /* Rays that go each by itself are won or lost one by one, others together, as one. */
-    const int each = packet->few == QN_EACH_LANE;
+    const int each = few == QN_EACH_LANE;
     const unsigned asked = each ? lanes : 1, lost = each ? (unsigned)wide.lost : hits->unsure == packet->live && wide.leaves > wide.budget; /* or nearly so */
     for (unsigned i = lost; i < asked; i++) {
       patience_won(&work->patience);
@@ -67,6 +72,10 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
       patience_lost(&work->patience);
     }
   }
+}
+
+void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
+  run(work, packet, packet->few, hits);
 }
 
 /* The first boundary between two parameters of a lane's ray. */
@@ -152,9 +161,9 @@ static uint64_t round_each(quoin_work *work, qn_packet *packet, const qn_packet_
   return sure;
 }
 
-quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen *out, uint64_t *met) {
+QN_INLINE quoin_status look_packet(quoin_work *work, qn_packet *packet, int few, unsigned want, qn_seen *out, uint64_t *met) {
   qn_packet_hits hits;
-  qn_look_run(work, packet, &hits);
+  run(work, packet, few, &hits);
   uint64_t tied = hits.tied & ~hits.unsure;
   if (tied) {
     tied &= ~(want & QN_LOOK_SURFACE ? qn_alone_lanes(work->scene, packet, &hits, tied) : qn_name_parts(work->scene, qn_scratch_eval(work->scratch), packet, &hits, tied));
@@ -170,9 +179,9 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
   if (want & QN_LOOK_T) {
     uint64_t *made = &qn_scratch_counts(work->scratch)->exact_forms;
     sure = hits.found;
-    if (packet->few == QN_ONE_LANE) {
+    if (few == QN_ONE_LANE) {
       sure = sure && work->wide->round_one(work->scene, packet, &hits, rounded, made);
-    } else if (packet->few == QN_EACH_LANE) {
+    } else if (few == QN_EACH_LANE) {
       sure = sure ? round_each(work, packet, &hits, sure, rounded, made) : 0;
     } else {
       sure = work->wide->round(work->scene, packet, &hits, sure, rounded, made);
@@ -200,6 +209,10 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
     }
   }
   return QUOIN_OK;
+}
+
+quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, qn_seen *out, uint64_t *met) {
+  return look_packet(work, packet, packet->few, want, out, met);
 }
 
 static quoin_spot spot_of(const qn_seen *seen) {
@@ -388,7 +401,7 @@ quoin_status qn_look_alone(quoin_work *work, const quoin_ray *ray, uint32_t on, 
   p.live = 1, p.few = QN_ONE_LANE;
   p.new_origins = p.new_directions = 1, p.kept_ranges = 0, p.tile = QN_TILE_NONE, p.any = 0;
   uint64_t met;
-  quoin_status status = qn_look_packet(work, &p, want, out, &met);
+  quoin_status status = look_packet(work, &p, QN_ONE_LANE, want, out, &met);
   if (!met) {
     *out = (qn_seen){.surface = QUOIN_NO_SURFACE};
   }
