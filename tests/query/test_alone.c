@@ -123,6 +123,39 @@ static void lattice(void **state) {
   assert_true(kept > free_lanes - free_lanes / 10); /* else nothing is gained */
 }
 
+/* Places known to e: rays down x, y or their negatives end on z = 0, some of them less than e before another face. Only e can tell that they may be on it. */
+static void known_to(void **state) {
+  (void)state;
+  static const char *const FACE[4] = {"translate([1,-20,-20]) cube(40);", "translate([-20,1,-20]) cube(40);", "translate([-41,-20,-20]) cube(40);", "translate([-20,-41,-20]) cube(40);"};
+  for (int way = 0; way < 4; way++) {
+    const int axis = way & 1;
+    const double sign = way & 2 ? -1 : 1;
+    char text[200];
+    snprintf(text, sizeof text, "translate([-9,-9,-9]) cube([18,18,9]); %s", FACE[way]);
+    ask a;
+    ask_open(&a, text);
+    qn_seen seen;
+    assert_int_equal(qn_look_alone(a.work, &(quoin_ray){{0, 0, 1}, {0, 0, -1}, 0, HUGE_VAL}, QUOIN_NO_SURFACE, QN_LOOK_T, &seen), QUOIN_OK);
+    for (int lane = 0; lane < QN_LANES; lane++) {
+      for (int far = 0; far < 2; far++) {
+        qn_packet p = {.tile = QN_TILE_NONE, .few = QN_MANY_LANES};
+        qn_packet_hits hits = {.found = ~(uint64_t)0};
+        for (int k = 0; k < QN_LANES; k++) {
+          const double x = 0.25 + k / 128.0;
+          p.o[axis][k] = sign * (x - 2), p.o[2][k] = 1, p.d[axis][k] = sign, p.d[2][k] = -0.5;
+          hits.t[k] = 2, hits.error[k] = k == lane ? (1 - x) * (far ? 0.75 : 1.25) : 0x1p-40, hits.surface[k] = seen.surface;
+        }
+        const uint64_t one = (uint64_t)1 << lane, pair = one | (uint64_t)1 << (lane ^ 1);
+        const uint64_t lanes[3] = {one, pair, ~(uint64_t)0};
+        for (int i = 0; i < 3; i++) {
+          assert_int_equal(qn_alone_lanes(a.scene, &p, &hits, lanes[i]), far ? lanes[i] : lanes[i] & ~one);
+        }
+      }
+    }
+    ask_close(&a);
+  }
+}
+
 /* Rays along x through the middle of slabs, from `from` on: the first boundary is at `at`, where several slabs have a face. Slabs change in the order of the text, and the one at
    which the solid's value last changes is named. */
 #define SLAB(from, to) "translate([" #from ",-9,-9]) cube([" #to "-(" #from "),18,18]);"
@@ -163,6 +196,6 @@ static void parts(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(lattice), cmocka_unit_test(parts)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(lattice), cmocka_unit_test(known_to), cmocka_unit_test(parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
