@@ -60,9 +60,16 @@ quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_
     const double *x = points + 3 * at;
     size_t count = n - at < QN_POINTS ? n - at : QN_POINTS;
     quoin_status status = certify(work, count, x, NULL, verdict);
-    for (size_t i = 0; i < count && status == QUOIN_OK; i++) {
+    if (status != QUOIN_OK) {
+      return status;
+    }
+    unsigned open = 0;
+    for (size_t i = 0; i < count; i++) {
       out[at + i] = SIDES[verdict[i]];
-      if (QN_UNLIKELY(verdict[i] == QN_NOT_SURE)) {
+      open |= verdict[i] == QN_NOT_SURE;
+    }
+    for (size_t i = 0; QN_UNLIKELY(open) && i < count && status == QUOIN_OK; i++) {
+      if (verdict[i] == QN_NOT_SURE) {
         status = side_of_doubles(work, x + 3 * i, &out[at + i]);
       }
     }

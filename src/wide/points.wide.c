@@ -34,7 +34,7 @@ typedef struct walk {
 #define NOWHERE (UINT32_MAX - 1) /* the cell of a question that is not asked of a grid */
 
 QN_INLINE qn_wide_point point_of(const walk *w, size_t i) {
-  return (qn_wide_point){w->points + 3 * i, w->weights ? w->weights[i] : 0};
+  return (qn_wide_point){w->points + 3 * i, w->weights[i]};
 }
 
 /* n questions: is point[i] in the union un[i]? */
@@ -132,14 +132,15 @@ static void ask(walk *w, questions *q);
 /* A term whose leaves leave its verdict open or in, and which has lists. */
 typedef struct open_term { uint32_t query, term; uint8_t verdict; } open_term;
 
-/* The lists of some terms, all terms' first unions together, then all second ones, as long as their verdicts can still change an answer. */
-static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t count) {
+/* The lists of some terms, all terms' first unions together, then all second ones, as long as their verdicts can still change an answer. common: the term
+   that all of them are, or null. */
+QN_INLINE void ask_lists_of(walk *w, questions *q, open_term *open, size_t count, const qn_nterm *common) {
   const qn_normal *normal = &w->scene->normal;
   questions below;
   for (uint32_t i = 0; count; i++) {
     below.n = count;
     for (size_t k = 0; k < count; k++) {
-      const qn_nterm *t = &normal->terms[open[k].term];
+      const qn_nterm *t = common ? common : &normal->terms[open[k].term];
       below.point[k] = q->point[open[k].query];
       below.un[k] = normal->lists[i < t->minus ? t->minus0 + i : t->plus0 + (i - t->minus)];
     }
@@ -147,7 +148,7 @@ static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t
     size_t left = 0;
     for (size_t k = 0; k < count; k++) { /* which way an answer goes is anybody's guess: no branch hangs on it */
       open_term o = open[k];
-      const qn_nterm *t = &normal->terms[o.term];
+      const qn_nterm *t = common ? common : &normal->terms[o.term];
       uint8_t *answer = &q->verdict[o.query], v = below.verdict[k];
       v = i < t->minus ? (uint8_t)(QN_SURELY_IN - v) : v;
       o.verdict = v < o.verdict ? v : o.verdict;
@@ -161,6 +162,7 @@ static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t
     count = left;
   }
 }
+static QN_NOINLINE void ask_lists(walk *w, questions *q, open_term *open, size_t count) { ask_lists_of(w, q, open, count, NULL); }
 
 QN_INLINE const qn_piece_head *piece_at(const struct quoin_scene *scene, uint32_t leaf) {
   return (const qn_piece_head *)(const void *)((const char *)scene->lines + (size_t)scene->line_of[leaf] * 64);
@@ -260,7 +262,8 @@ static void settle_term(walk *w, questions *q, uint32_t term) {
     }
   }
   if (opened) {
-    ask_lists(w, q, open, opened);
+    const qn_nterm one = *t;
+    ask_lists_of(w, q, open, opened, &one);
   }
 }
 
@@ -432,30 +435,39 @@ static void ask(walk *w, questions *q) {
 /* --- a batch ---------------------------------------------------------------------------------------------------------- */
 
 /* The floats about a point: 2u weight to either side, then outward by more than a float's rounding, which moves by under 2^-24 of it or by
-   under the smallest normal float; the fourth is any number. 0 for a point beyond the range of the bounds, or not all of numbers. */
-QN_INLINE size_t box_of(qn_wide_point p, float box[8]) {
-  const __m128 size = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff)), step = _mm_set1_ps(QN_FLOAT_STEP), tiny = _mm_set1_ps(QN_FLOAT_TINY);
-  const __m128d xy = _mm_loadu_pd(p.x), z = _mm_load_sd(p.x + 2), e = _mm_set1_pd(2 * QN_U * p.weight);
-  __m128 low = _mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(xy, e)), _mm_cvtpd_ps(_mm_sub_pd(z, e)));
-  __m128 high = _mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(xy, e)), _mm_cvtpd_ps(_mm_add_pd(z, e)));
-  low = _mm_sub_ps(low, _mm_add_ps(_mm_mul_ps(_mm_and_ps(low, size), step), tiny));
-  high = _mm_add_ps(high, _mm_add_ps(_mm_mul_ps(_mm_and_ps(high, size), step), tiny));
+   under the smallest normal float; the fourth is any number. exact: its weight is 0. 0 for a point beyond the range of the bounds, or not all of numbers. */
+QN_INLINE size_t box_of(qn_wide_point p, int exact, float box[8]) {
+  const __m128 size = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff)), step = _mm_set1_ps(QN_FLOAT_STEP), tiny = _mm_set1_ps(QN_FLOAT_TINY), most = _mm_set1_ps((float)QN_WIDE_LARGEST);
+  const __m128d xy = _mm_loadu_pd(p.x), z = _mm_load_sd(p.x + 2), e = _mm_set1_pd(exact ? 0 : 2 * QN_U * p.weight);
+  __m128 low = _mm_movelh_ps(_mm_cvtpd_ps(exact ? xy : _mm_sub_pd(xy, e)), _mm_cvtpd_ps(exact ? z : _mm_sub_pd(z, e)));
+  __m128 high = exact ? low : _mm_movelh_ps(_mm_cvtpd_ps(_mm_add_pd(xy, e)), _mm_cvtpd_ps(_mm_add_pd(z, e)));
+  const __m128 under = _mm_add_ps(_mm_mul_ps(_mm_and_ps(low, size), step), tiny), over = exact ? under : _mm_add_ps(_mm_mul_ps(_mm_and_ps(high, size), step), tiny);
+  low = _mm_sub_ps(low, under), high = _mm_add_ps(high, over);
   _mm_store_ps(box, low);
   _mm_store_ps(box + 4, high);
-  const __m128 most = _mm_set1_ps((float)QN_WIDE_LARGEST);
   __m128 small = _mm_and_ps(_mm_cmple_ps(_mm_and_ps(low, size), most), _mm_cmple_ps(_mm_and_ps(high, size), most));
   return (_mm_movemask_ps(small) & 7) == 7;
 }
 
+/* The points that can be asked about become questions about a union. */
+QN_INLINE void start_questions(const walk *w, size_t n, int exact, uint32_t un, questions *q) {
+  q->n = 0;
+  for (size_t i = 0; i < n; i++) {
+    q->point[q->n] = (uint32_t)i;
+    q->un[q->n] = un;
+    q->n += box_of(point_of(w, i), exact, w->room->box[i]);
+  }
+}
+
 void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const double *points, const double *weights, uint8_t *verdict, qn_wide_counts *counts);
 void QN_OF_ISA(qn_points)(const struct quoin_scene *scene, qn_point_walk *room, size_t n, const double *points, const double *weights, uint8_t *verdict, qn_wide_counts *counts) {
-  walk w = {.scene = scene, .points = points, .weights = weights, .room = room};
+  static const double NO_WEIGHT[QN_POINTS] = {0};
+  walk w = {.scene = scene, .points = points, .weights = weights ? weights : NO_WEIGHT, .room = room};
   questions q;
-  q.n = 0;
-  for (size_t i = 0; i < n; i++) {
-    q.point[q.n] = (uint32_t)i;
-    q.un[q.n] = scene->normal.root;
-    q.n += box_of(point_of(&w, i), room->box[i]);
+  if (weights) {
+    start_questions(&w, n, 0, scene->normal.root, &q);
+  } else {
+    start_questions(&w, n, 1, scene->normal.root, &q);
   }
   const qn_union *root = &scene->normal.unions[scene->normal.root];
   if (root->terms + root->wide <= FEW) {
