@@ -42,6 +42,7 @@
   X(Q0411, QUOIN_WARNING, "a second '!'") \
   X(Q0412, QUOIN_ERROR, "a missing argument") \
   X(Q0413, QUOIN_WARNING, "an unknown colour") \
+  X(Q0414, QUOIN_WARNING, "a part of a colour that is not from 0 to 1") \
   X(Q0501, QUOIN_WARNING, "a size of zero or less: an empty solid") \
   X(Q0502, QUOIN_WARNING, "a number that is not finite: an empty solid") \
   X(Q0503, QUOIN_WARNING, "a singular transform: an empty solid") \
