@@ -5,7 +5,7 @@
 #include "quoin/quoin.h"
 
 enum { QN_ACROSS_MOST = 4096 };
-typedef struct qn_across_room { uint32_t key[2][QN_ACROSS_MOST]; float at[QN_ACROSS_MOST][2]; } qn_across_room;
+typedef struct qn_across_room { uint32_t key[2][QN_ACROSS_MOST]; float at[QN_ACROSS_MOST + 1][2]; } qn_across_room;
 
 /* which: the numbers of n rays, at most QN_ACROSS_MOST, each number below that; put in order. What is not a finite place goes anywhere. */
 void qn_sort_across(const quoin_ray *rays, size_t n, uint16_t *which, qn_across_room *room);
