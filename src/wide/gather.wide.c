@@ -3,23 +3,45 @@
 #include "wide/packet.h"
 #include "wide/vec.h"
 
+#include <emmintrin.h>
 #include <math.h>
-#include <string.h>
+#include <stddef.h>
 
 /* Of an 8 by 8 tile, row after row. */
 #define ROW_OF(r) (r), (r) + 1, (r) + 4, (r) + 5, (r) + 16, (r) + 17, (r) + 20, (r) + 21
 static const uint8_t TILE_LANE[QN_LANES] = {ROW_OF(0), ROW_OF(2), ROW_OF(8), ROW_OF(10), ROW_OF(32), ROW_OF(34), ROW_OF(40), ROW_OF(42)};
 
-QN_INLINE uint64_t bits_of(double x) {
-  uint64_t b;
-  memcpy(&b, &x, sizeof b);
-  return b;
+/* A ray's numbers two by two; o0 and o1 are left out. */
+_Static_assert(sizeof(quoin_ray) == 64 && offsetof(quoin_ray, d) == 24 && offsetof(quoin_ray, from) == 48 && offsetof(quoin_ray, to) == 56, "a ray is eight doubles");
+typedef struct pairs { __m128i z_x, y_z, range; } pairs; /* o2 d0, d1 d2, from to */
+
+QN_INLINE pairs pairs_of(const quoin_ray *r) {
+  return (pairs){_mm_loadu_si128((const void *)(r->o + 2)), _mm_loadu_si128((const void *)(r->d + 1)), _mm_loadu_si128((const void *)&r->from)};
 }
 
-/* Which of its numbers the ray has not in common with another: ways in the first word, ranges in the second. */
-QN_INLINE void compare(const quoin_ray *a, const quoin_ray *b, uint64_t differ[2]) {
-  differ[0] |= (bits_of(a->d[0]) ^ bits_of(b->d[0])) | (bits_of(a->d[1]) ^ bits_of(b->d[1])) | (bits_of(a->d[2]) ^ bits_of(b->d[2]));
-  differ[1] |= (bits_of(a->from) ^ bits_of(b->from)) | (bits_of(a->to) ^ bits_of(b->to));
+/* The bits in which rays differ from the first: of ways in the first word, of ranges in the second. */
+QN_INLINE void differences(pairs all, uint64_t differ[2]) {
+  uint64_t zx[2], yz[2], range[2];
+  _mm_storeu_si128((void *)zx, all.z_x), _mm_storeu_si128((void *)yz, all.y_z), _mm_storeu_si128((void *)range, all.range);
+  differ[0] |= zx[1] | yz[0] | yz[1], differ[1] |= range[0] | range[1];
+}
+
+QN_INLINE void compare(pairs a, pairs b, pairs *all) {
+  all->z_x = _mm_or_si128(all->z_x, _mm_xor_si128(a.z_x, b.z_x)), all->y_z = _mm_or_si128(all->y_z, _mm_xor_si128(a.y_z, b.y_z));
+  all->range = _mm_or_si128(all->range, _mm_xor_si128(a.range, b.range));
+}
+
+/* Origins into lanes. which: null, for a tile row after row. n: a constant where all lanes are there. */
+QN_INLINE void gather_origins(const quoin_ray *rays, const uint16_t *which, unsigned n, qn_packet *p, uint64_t differ[2]) {
+  const pairs first = pairs_of(&rays[which ? which[0] : 0]);
+  pairs all = {_mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128()};
+  for (unsigned i = 0; i < QN_LANES; i++) {
+    const unsigned from = n == QN_LANES || i < n ? i : n - 1, lane = which ? i : TILE_LANE[i];
+    const quoin_ray *r = &rays[which ? which[from] : from];
+    p->o[0][lane] = r->o[0], p->o[1][lane] = r->o[1], p->o[2][lane] = r->o[2];
+    compare(pairs_of(r), first, &all);
+  }
+  differences(all, differ);
 }
 
 QN_INLINE void each(double to[QN_LANES], double x) {
@@ -94,15 +116,18 @@ void QN_OF_ISA(qn_gather)(const quoin_ray *rays, const uint16_t *which, unsigned
 void QN_OF_ISA(qn_gather)(const quoin_ray *rays, const uint16_t *which, unsigned n, qn_packet *p, qn_gathered *g) {
   const quoin_ray *first = &rays[which ? which[0] : 0];
   uint64_t differ[2] = {0, 0}, held[2] = {0, 0};
-  for (unsigned i = 0; i < QN_LANES; i++) {
-    const quoin_ray *r = i < n ? &rays[which ? which[i] : i] : &rays[which ? which[n - 1] : n - 1];
-    const unsigned lane = which ? i : TILE_LANE[i];
-    p->o[0][lane] = r->o[0], p->o[1][lane] = r->o[1], p->o[2][lane] = r->o[2];
-    compare(r, first, differ);
+  if (n < QN_LANES) {
+    gather_origins(rays, which, n, p, differ);
+  } else if (which) {
+    gather_origins(rays, which, QN_LANES, p, differ);
+  } else {
+    gather_origins(rays, NULL, QN_LANES, p, differ);
   }
   if (g->one_way || g->one_range) {
     const quoin_ray before = {{0, 0, 0}, {p->d[0][0], p->d[1][0], p->d[2][0]}, p->from[0], p->to[0]};
-    compare(first, &before, held);
+    pairs all = {_mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128()};
+    compare(pairs_of(first), pairs_of(&before), &all);
+    differences(all, held);
   }
   g->new_ways = !g->one_way || differ[0] || held[0];
   g->new_ranges = !g->one_range || differ[1] || held[1];

@@ -134,7 +134,32 @@ static void no_rays(void **unused) {
   ask_close(&a);
 }
 
+/* Rays that all meet the ball, but for one that has one number of its own and does not, wherever it stands. */
+static void one_differs(void **unused) {
+  (void)unused;
+  ask a;
+  ask_open(&a, "sphere(1);");
+  for (size_t n = 64; n <= 84; n += 20) {
+    for (size_t at = 0; at < n; at++) {
+      for (int what = 0; what < 5; what++) {
+        for (size_t i = 0; i < n; i++) {
+          rays[i] = (quoin_ray){{-5, 0.01 * (double)i, 0}, {1, 0, 0}, 0, INFINITY};
+        }
+        quoin_ray *r = &rays[at];
+        double *const number[] = {&r->d[0], &r->d[1], &r->d[2], &r->from, &r->to};
+        static const double own[] = {-1, 0.3, 0.3, 7, 3};
+        *number[what] = own[what];
+        assert_int_equal(quoin_rays_blocked(a.scene, a.work, n, rays, NULL, blocked), QUOIN_OK);
+        for (size_t i = 0; i < n; i++) {
+          assert_int_equal(blocked[i], i != at);
+        }
+      }
+    }
+  }
+  ask_close(&a);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(scattered), cmocka_unit_test(no_rays)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(scattered), cmocka_unit_test(no_rays), cmocka_unit_test(one_differs)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
