@@ -31,5 +31,7 @@ __extension__ typedef unsigned __int128 qn_u128;
 /* Zero bits above the highest and below the lowest bit set; v != 0. */
 QN_INLINE unsigned qn_leading_zeros(uint64_t v) { return (unsigned)__builtin_clzll(v); }
 QN_INLINE unsigned qn_trailing_zeros(uint64_t v) { return (unsigned)__builtin_ctzll(v); }
+/* The bits that are set; all or none at once, where the machine's baseline counts them in a function. */
+QN_INLINE unsigned qn_bits_set(uint64_t v) { return v == UINT64_MAX ? 64 : v ? (unsigned)__builtin_popcountll(v) : 0; }
 
 #endif

@@ -34,10 +34,6 @@ static void patience_learns(qn_patience *p, uint64_t leaves_of_a_ray) {
   p->learns = 0;
 }
 
-static unsigned lanes_of(uint64_t mask) {
-  return mask == ~(uint64_t)0 ? QN_LANES : mask ? (unsigned)__builtin_popcountll(mask) : 0;
-}
-
 /* few: the packet's, where a constant spares what its kind has no need of. */
 QN_INLINE void run(quoin_work *work, qn_packet *packet, int few, qn_packet_hits *hits) {
   const quoin_scene *scene = work->scene;
@@ -59,7 +55,7 @@ QN_INLINE void run(quoin_work *work, qn_packet *packet, int few, qn_packet_hits 
     qn_counts *counts = qn_scratch_counts(work->scratch);
     body(scene, packet, hits, &wide);
     counts->nodes += wide.nodes, counts->leaves += wide.leaves, counts->packets++;
-    const unsigned lanes = few == QN_ONE_LANE ? 1 : lanes_of(packet->live), unsure = few == QN_ONE_LANE ? hits->unsure & 1 : lanes_of(hits->unsure);
+    const unsigned lanes = few == QN_ONE_LANE ? 1 : qn_bits_set(packet->live), unsure = few == QN_ONE_LANE ? hits->unsure & 1 : qn_bits_set(hits->unsure);
     counts->rays += lanes - unsure;
     counts->exact_rays += unsure;
     /* Rays that go each by itself are won or lost one by one, others together, as one. */

@@ -492,9 +492,9 @@ static quoin_status make_rows(quoin_work *work, const bundle *b, uint64_t *sure)
     s->spans.row_count[qn_trailing_zeros(m)] = 0;
   }
   qn_counts *counts = qn_scratch_counts(work->scratch);
-  const uint64_t answered = (uint64_t)__builtin_popcountll(lanes);
+  const uint64_t answered = qn_bits_set(lanes);
   counts->rays += answered;
-  counts->exact_rays += (uint64_t)__builtin_popcountll(live) - answered;
+  counts->exact_rays += qn_bits_set(live) - answered;
   work->wide->round_rows(work->scene, &s->packet, &s->spans, &counts->exact_forms);
   return s->spans.rows ? round_rest(work, b) : QUOIN_OK;
 }

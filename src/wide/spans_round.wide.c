@@ -21,6 +21,10 @@ QN_INLINE double payload_cut(void) {
 
 /* --- spheres --------------------------------------------------------------------------------------------------------- */
 
+/* A leaf that all lanes of a row were on, and its sphere if it is one. */
+enum { SEEN = 4 };
+typedef struct seen_ball { uint32_t leaf; int is_ball; ball ball; } seen_ball;
+
 /* What is rounded here, and the spheres that were met last: mostly where a stretch begins and where it ends are on one, and neighbours' ends are. */
 typedef struct rounding_rows {
   const struct quoin_scene *scene;
@@ -29,9 +33,8 @@ typedef struct rounding_rows {
   qn_span_flat *flats;
   uint64_t *made;
   int planes, balls; /* whether there may be any */
-  uint32_t one;      /* the leaf that is in all lanes of `ball`, or UINT32_MAX */
-  int one_is_ball;
-  unsigned in;       /* else: the lanes of `leaves`, payloads, whose leaves are spheres; `not_in`: those whose leaves are none */
+  seen_ball one[SEEN]; /* by the leaf's last bits; UINT32_MAX: none yet */
+  unsigned in;       /* the lanes of `leaves`, payloads, whose leaves are spheres, those of `ball`; `not_in`: those whose leaves are none */
   unsigned not_in;
   vd leaves;
   ball ball;
@@ -42,17 +45,17 @@ static const qn_piece_sphere *sphere_of(const struct quoin_scene *scene, uint32_
   return head->kind == QN_PIECE_SPHERE ? (const qn_piece_sphere *)(const void *)head : NULL;
 }
 
-static QN_NOINLINE void see_one_ball(rounding_rows *r, uint32_t leaf) {
+static QN_NOINLINE void see_one_ball(const rounding_rows *r, uint32_t leaf, seen_ball *one) {
   const qn_piece_sphere *s = sphere_of(r->scene, leaf);
-  r->one = leaf, r->one_is_ball = s != NULL, r->in = r->not_in = 0;
+  one->leaf = leaf, one->is_ball = s != NULL;
   if (s) {
-    r->ball = ball_of_one(r->packet, s);
+    one->ball = ball_of_one(r->packet, s);
   }
 }
 
 static QN_NOINLINE void see_balls(rounding_rows *r, const double *names, unsigned active) {
   const qn_piece_sphere *of[QN_W], *some = NULL;
-  r->one = UINT32_MAX, r->in = 0, r->leaves = vload(names);
+  r->in = 0, r->leaves = vload(names);
   for (unsigned i = 0; i < QN_W; i++) {
     uint64_t name;
     memcpy(&name, &names[i], sizeof name);
@@ -68,13 +71,13 @@ static QN_NOINLINE void see_balls(rounding_rows *r, const double *names, unsigne
   }
 }
 
-/* Rounds those lanes of `on` that it can; returns the others. All are on r->ball. */
-QN_INLINE unsigned row_on_balls(const rounding_rows *r, double *t, int at, unsigned on) {
+/* Rounds those lanes of `on` that it can; returns the others. All are on the spheres of b. */
+QN_INLINE unsigned row_on_balls(const rounding_rows *r, const ball *b, double *t, int at, unsigned on) {
   const qn_packet *p = r->packet;
   const vd o[3] = {vload(p->o[0] + at), vload(p->o[1] + at), vload(p->o[2] + at)}, d[3] = {vload(p->d[0] + at), vload(p->d[1] + at), vload(p->d[2] + at)};
   const vd rough = vload(t);
   vd out;
-  const vm sure = vand(ball_round(p, &r->ball, o, d, rough, vmul(vload(r->tolerance + at), vset(0.5)), &out), vmask(on));
+  const vm sure = vand(ball_round(p, b, o, d, rough, vmul(vload(r->tolerance + at), vset(0.5)), &out), vmask(on));
   vstore(t, vpick(sure, out, rough));
   return on & ~vbits(sure);
 }
@@ -154,17 +157,18 @@ static QN_NOINLINE unsigned row_of_many(rounding_rows *r, double *t, const doubl
       see_balls(r, names, balls);
     }
     const unsigned on = balls & r->in;
-    active = (active & ~on) | (on ? row_on_balls(r, t, at, on) : 0);
+    active = (active & ~on) | (on ? row_on_balls(r, &r->ball, t, at, on) : 0);
   }
   return active;
 }
 
 /* All lanes on one leaf, which may be a sphere. */
 QN_INLINE unsigned row_on_ball(rounding_rows *r, uint32_t leaf, double *t, int at, unsigned active) {
-  if (leaf != r->one) {
-    see_one_ball(r, leaf);
+  seen_ball *one = &r->one[leaf % SEEN];
+  if (leaf != one->leaf) {
+    see_one_ball(r, leaf, one);
   }
-  return r->one_is_ball ? row_on_balls(r, t, at, active) : active;
+  return one->is_ball ? row_on_balls(r, &one->ball, t, at, active) : active;
 }
 
 /* Row j of a group: rounds what it can of the lanes in `active`; returns the others that lie on a surface. */
@@ -250,8 +254,12 @@ static void round_row(const struct quoin_scene *scene, const qn_packet *packet, 
 void QN_OF_ISA(qn_round_rows)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made);
 void QN_OF_ISA(qn_round_rows)(const struct quoin_scene *scene, const qn_packet *packet, qn_packet_spans *spans, uint64_t *made) {
   const int exact = packet->tile != QN_TILE_PAIRS;
-  rounding_rows r = {.scene = scene, .packet = packet, .tolerance = spans->tolerance, .flats = spans->flats, .made = made, .planes = exact && scene->plane_count > 0,
-                     .balls = exact && scene->quadric_count > 0, .one = UINT32_MAX};
+  rounding_rows r; /* large: what is seen is filled in as it is met */
+  r.scene = scene, r.packet = packet, r.tolerance = spans->tolerance, r.flats = spans->flats, r.made = made;
+  r.planes = exact && scene->plane_count > 0, r.balls = exact && scene->quadric_count > 0, r.in = r.not_in = 0;
+  for (int i = 0; i < SEEN; i++) {
+    r.one[i].leaf = UINT32_MAX;
+  }
   qn_packet_hits hits;
   uint64_t some = 0;
   spans->rows = 0;
