@@ -10,6 +10,12 @@ int qn_root_plain_(qn_ctx *ctx, qn_root x, qn_int *num, qn_int *den);
 /* An integer within 2 of the root times 2^k. */
 qn_int qn_root_scaled_(qn_ctx *ctx, qn_root x, size_t k);
 
+/* 0 when the root is 0; else 1, and |root| is at most 2^*e and above 2^(*e - 4). */
+int qn_root_size_(qn_ctx *ctx, qn_root x, int64_t *e);
+
+/* The same quadratic taken as its stored form, without the rule of S2. */
+qn_quad qn_quad_stored_(const qn_quad *q);
+
 /* Whether a rounding of S2 went into it. */
 QN_INLINE int qn_quad_rounded_(const qn_quad *q) { return q->a.mag != QN_EXACT || q->h.mag != QN_EXACT || q->c.mag != QN_EXACT; }
 

@@ -193,8 +193,7 @@ qn_int qn_root_scaled_(qn_ctx *ctx, qn_root x, size_t k) {
   return quotient;
 }
 
-/* The same quadratic taken as its stored form, without the rule of S2. */
-static qn_quad stored(const qn_quad *q) {
+qn_quad qn_quad_stored_(const qn_quad *q) {
   qn_quad p = *q;
   p.a.mag = p.h.mag = p.c.mag = p.disc.mag = QN_EXACT;
   return p;
@@ -242,6 +241,13 @@ static rough approximate(qn_ctx *ctx, qn_root x, size_t bits) {
   return (rough){negative ? qn_int_neg(quotient) : quotient, en - ed - (int64_t)up};
 }
 
+int qn_root_size_(qn_ctx *ctx, qn_root x, int64_t *e) {
+  enum { FEW = 8 };
+  const rough v = approximate(ctx, x, FEW);
+  *e = v.e + (int64_t)qn_int_bits(v.m) + 1;
+  return qn_int_sign(v.m) != 0;
+}
+
 /* In units of 2^e, of which nothing is known beyond. */
 static qn_int in_units(qn_ctx *ctx, rough v, int64_t e) { return v.e >= e ? v.m : qn_int_shr(ctx, v.m, (size_t)(e - v.e)); }
 
@@ -249,7 +255,7 @@ static qn_int in_units(qn_ctx *ctx, rough v, int64_t e) { return v.e >= e ? v.m 
 void qn_root_between(qn_ctx *ctx, qn_root x, qn_root y, qn_int *num, qn_int *den) {
   enum { APART = 9 }; /* bits of units, which the few that either root is off do not matter to */
   const int rounded = qn_quad_rounded_(x.q) || qn_quad_rounded_(y.q);
-  qn_quad p = stored(x.q), q = stored(y.q);
+  qn_quad p = qn_quad_stored_(x.q), q = qn_quad_stored_(y.q);
   x.q = &p;
   y.q = &q;
   if (rounded && qn_root_cmp(ctx, x, y) >= 0) {

@@ -15,9 +15,9 @@ static int64_t spread(qn_ctx *ctx, qn_root x) {
   if (!qn_quad_rounded_(q)) {
     return QN_EXACT;
   }
-  enum { POINT = 64 };
-  int64_t t = (int64_t)qn_int_bits(qn_root_scaled_(ctx, x, POINT)) + 1 - POINT; /* |root| <= 2^t; that of a tiny one is c's affair */
-  int64_t of_a = q->a.mag == QN_EXACT ? QN_EXACT : q->a.mag, of_h = q->h.mag, of_c = q->c.mag;
+  int64_t t = 0; /* |root| <= 2^t */
+  const int away = qn_root_size_(ctx, x, &t);
+  int64_t of_a = away ? q->a.mag : QN_EXACT, of_h = away ? q->h.mag : QN_EXACT, of_c = q->c.mag;
   int64_t size = QN_EXACT, slope;
   if (of_h != QN_EXACT) {
     size = of_h + 1 + t;
@@ -35,8 +35,9 @@ static int64_t spread(qn_ctx *ctx, qn_root x) {
 
 int qn_root_cmp_s2_(qn_ctx *ctx, qn_root x, qn_root y) {
   int64_t rho = larger(spread(ctx, x), spread(ctx, y));
-  if (rho == QN_EXACT) {
-    rho = -4 * QN_S2_BITS; /* only a double root whose h and a are exact */
+  if (rho == QN_EXACT) { /* no rounded number has a part in either */
+    const qn_quad p = qn_quad_stored_(x.q), q = qn_quad_stored_(y.q);
+    return qn_root_cmp(ctx, (qn_root){&p, x.which}, (qn_root){&q, y.which});
   }
   int64_t k = rho < 0 ? 8 - rho : 8;
   qn_int gap = qn_int_sub(ctx, qn_root_scaled_(ctx, x, (size_t)k), qn_root_scaled_(ctx, y, (size_t)k)); /* within 4 of the truth */

@@ -208,10 +208,6 @@ int fuzz_answered(quoin_status status, const char *question) {
 int fuzz_read(const uint8_t *text, size_t length, fuzz_scene *out) {
   const quoin_allocator allocator = {.alloc = take, .resize = change, .release = give_back, .limit = FUZZ_MEMORY};
   *out = (fuzz_scene){.super = has_word(text, length, "superquadric")};
-  static const char *const words[] = {"rotate", "sqrt", "sin", "cos", "tan", "axis", "^"};
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-    out->irrational |= has_word(text, length, words[i]);
-  }
   quoin_status status = quoin_model_new(&allocator, &out->model);
   if (status != QUOIN_OK) {
     fuzz_wrong("no model: %s", quoin_status_text(status));

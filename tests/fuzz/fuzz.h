@@ -42,7 +42,6 @@ typedef struct fuzz_scene {
   quoin_scene *scene;
   quoin_work *work;
   quoin_status status; /* of reading */
-  int irrational; /* the text has a word that makes irrational numbers */
   int super; /* the text has superquadrics: their answers are held to less (design S10) */
 } fuzz_scene;
 

@@ -437,6 +437,35 @@ static qn_quad line_of(qn_int num, qn_int den) { /* den t - num, twice */
   return q;
 }
 
+/* Rounded roots -5 and 3 times 2^-n: what ties with them is 2^-200 of themselves away, not of 1. */
+static void test_rounded_tiny(void **state) {
+  (void)state;
+  static const size_t scales[] = {0, 40, 64, 100, 400, 1000, 10000};
+  const qn_int one = qn_int_from(&ctx, 1), zero = qn_int_from(&ctx, 0);
+  for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+    const size_t n = scales[i];
+    qn_quad q;
+    qn_quad_make(&ctx, qn_x_rounded(qn_int_shl(&ctx, one, 280 + 2 * n)), qn_x_rounded(qn_int_shl(&ctx, one, 280 + n)), qn_x_rounded(qn_int_shl(&ctx, qn_int_from(&ctx, -15), 280)), &q);
+    assert_int_equal(qn_quad_kind(&q), QN_QUAD_TWO);
+    static const struct { int num, bits, less, more; } places[] = {
+      {0, 0, -1, 1}, {1, 0, -1, 1}, {-1, 0, -1, 1}, {3, 0, -1, 0}, {-5, 0, 0, 1}, {4, 0, -1, -1}, {-6, 0, 1, 1},
+      {3, 150, -1, -1}, {3, 220, -1, 0}, {-5, 150, -1, 1}, {-5, 220, 0, 1}}; /* bits: 2^-bits of a unit more */
+    for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+      const size_t bits = (size_t)places[k].bits;
+      const qn_int num = qn_int_add(&ctx, qn_int_shl(&ctx, qn_int_from(&ctx, places[k].num), bits), bits ? one : zero), den = qn_int_shl(&ctx, one, n + bits);
+      assert_int_equal(qn_root_cmp_rat(&ctx, (qn_root){&q, 0}, num, den), places[k].less);
+      assert_int_equal(qn_root_cmp_rat(&ctx, (qn_root){&q, 1}, num, den), places[k].more);
+    }
+    /* without c: 0, and -2 2^-n */
+    qn_quad_make(&ctx, qn_x_rounded(qn_int_shl(&ctx, one, 280 + 2 * n)), qn_x_rounded(qn_int_shl(&ctx, one, 280 + n)), qn_x(zero), &q);
+    for (int side = -1; side <= 1; side++) {
+      const qn_int num = qn_int_from(&ctx, side), den = qn_int_shl(&ctx, one, n + 1200);
+      assert_int_equal(qn_root_cmp_rat(&ctx, (qn_root){&q, 1}, num, den), -side);
+      assert_int_equal(qn_root_cmp_rat(&ctx, (qn_root){&q, 0}, num, den), -1);
+    }
+  }
+}
+
 /* What is between two roots lies in the middle half of them, and has no more bits than it takes. */
 static void test_between(void **state) {
   (void)state;
@@ -504,7 +533,7 @@ static void test_memory(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_kinds),      cmocka_unit_test(test_order),        cmocka_unit_test(test_to_double), cmocka_unit_test(test_to_double_middles),
-    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_rounded_far),
+    cmocka_unit_test(test_to_double_range), cmocka_unit_test(test_rounded), cmocka_unit_test(test_rounded_far), cmocka_unit_test(test_rounded_tiny),
     cmocka_unit_test(test_rounded_middles), cmocka_unit_test(test_between), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
