@@ -7,6 +7,7 @@
 #  4. No internal header and no internal name is in a public header.
 #  5. Every bound of src/base/bounds.h is derived, by its name, in docs/bounds.md.
 #  6. No source has more than 600 lines.
+#  7. Git keeps nothing at the top but what the README names: no log, no output.
 set -u
 source=$1 cc=$2 cxx=$3 library=$4
 failures=$(mktemp)
@@ -82,6 +83,13 @@ for file in "$source"/src/*/*.[ch] "$source"/include/quoin/*.h; do
   lines=$(wc -l < "$file")
   [ "$lines" -le 600 ] || complain "$file has $lines lines"
 done
+
+# --- 7. the top level ------------------------------------------------------------------------------------------------
+if kept=$(git -C "$source" ls-files 2> /dev/null); then
+  echo "$kept" | sed 's|/.*||' | sort -u | grep -vxE 'CMakeLists\.txt|README\.md|src|include|models|tests|docs|tools|\..*' | while IFS= read -r name; do
+    complain "$name does not belong at the top"
+  done
+fi
 
 if [ -s "$failures" ]; then
   exit 1

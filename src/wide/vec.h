@@ -290,7 +290,7 @@ QN_INLINE void veights(const double v[64], int most, double out[8]) {
   }
 }
 QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
-  const __m256d pair = _mm256_set_pd(x[1], x[1], x[0], x[0]);
+  const __m256d pair = _mm256_blend_pd(_mm256_set1_pd(x[0]), _mm256_set1_pd(x[1]), 0xc); /* not set_pd: gcc 12 takes wrong lanes of eight for it (tests/house/objects.sh) */
   const __m256d first = _mm256_add_pd(pair, _mm256_set_pd(y[1], y[0], y[1], y[0])), second = _mm256_add_pd(pair, _mm256_set_pd(y[3], y[2], y[3], y[2]));
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(first)), _mm256_cvtpd_ps(second), 1);
 }

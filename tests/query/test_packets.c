@@ -326,6 +326,45 @@ static void wide_grids(void **state) {
   ask_close(&a);
 }
 
+/* Balls of a few pixels, whose outlines pass between the rays of a tile: no pixel of any may be lost, by any body. */
+static void balls_of_pixels(void **state) {
+  (void)state;
+  enum { SIDE = 48 };
+  ask a;
+  char text[4000];
+  writer w = {text, sizeof text, 0};
+  dice d = {7};
+  for (int i = 0; i < 40; i++) {
+    put(&w, "translate([%d, %d, %d]) sphere(r = %d.%d);\n", roll(&d, SIDE), roll(&d, SIDE), roll(&d, 9), 1 + roll(&d, 4), roll(&d, 10));
+  }
+  ask_open(&a, text);
+  const quoin_grid grid = {.o = {0.25, SIDE - 0.125, 40}, .u = {SIDE, 0.5, 0}, .v = {-0.5, -SIDE, 0}, .d = {0.0625, 0.03125, -1}, .width = SIDE, .height = SIDE, .from = 0, .to = HUGE_VAL};
+  size_t hits = 0;
+  for (size_t body = 0; body < body_count; body++) {
+    static quoin_spot spots[SIDE * SIDE];
+    quoin_work *work;
+    setenv("QUOIN_ISA", bodies[body]->name, 1);
+    assert_int_equal(quoin_work_new(a.scene, &work), QUOIN_OK);
+    unsetenv("QUOIN_ISA");
+    assert_int_equal(quoin_grid_hits(a.scene, work, &grid, 0, 0, SIDE, SIDE, QUOIN_WANT_T, spots), QUOIN_OK);
+    for (size_t k = 0; k < SIDE * SIDE; k++) {
+      const double s = ((double)(k % SIDE) + 0.5) / SIDE, r = ((double)(k / SIDE) + 0.5) / SIDE;
+      quoin_ray ray = {.from = 0, .to = HUGE_VAL};
+      for (int i = 0; i < 3; i++) {
+        ray.o[i] = (grid.o[i] + s * grid.u[i]) + r * grid.v[i], ray.d[i] = grid.d[i];
+      }
+      const truth want = weave_ray(&a, &ray);
+      if ((spots[k].surface != QUOIN_NO_SURFACE) != want.found || (want.found && (spots[k].surface != want.surface || memcmp(&spots[k].t, &want.t, sizeof want.t) != 0))) {
+        fail_msg("%s: column %zu, row %zu", bodies[body]->name, k % SIDE, k / SIDE);
+      }
+      hits += (size_t)want.found;
+    }
+    quoin_work_free(work);
+  }
+  assert_true(hits > 800 * body_count && hits < SIDE * SIDE * body_count);
+  ask_close(&a);
+}
+
 static int stop_at_half(void *user, double done) {
   ++*(int *)user;
   return done >= 0.5;
@@ -581,7 +620,7 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : (size_t)share_from(200, (int)model_count);
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   body_count = find_bodies(bodies);
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(many_blocked), cmocka_unit_test(skipped_packets),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(balls_of_pixels), cmocka_unit_test(many_blocked), cmocka_unit_test(skipped_packets),
                                      cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* Tiles, other packets of one direction, and balls seen along the rays (wide/outline.h): a lane that is said to miss a ball does so in rationals, with every stored number as far off as its contract allows.
    Balls are laid so that the line of one lane, mostly the nearest of its four, touches them or nearly so. */
 #define QN_LANES_NOW 64
-#ifndef QN_ISA_AVX2
+#if !defined(QN_ISA_AVX2) && !defined(QN_ISA_AVX512) /* those that the machine has run too: tests/CMakeLists.txt */
 #define QN_ISA_SSE2
 #endif
 #include "dice.h"
