@@ -320,7 +320,7 @@ static void give_some(qn_cells *cells) {
   }
 }
 
-static void list(qn_cells *cells) {
+static void list(qn_cells *cells, int on_line) {
   enum { MANY = 16 }; /* few are sorted first: most often they are independent */
   qn_ctx *ctx = cells->ctx;
   const size_t n = cells->n;
@@ -335,6 +335,9 @@ static void list(qn_cells *cells) {
   cells->free = cells->order + n;
   memset(cells->signs, 0, 2 * n + 1);
   find_singular(cells);
+  if (on_line && cells->singular_count != 0 && qn_cells_pairs(cells)) {
+    return;
+  }
   if (n > MANY) {
     give_some(cells);
   }
@@ -376,7 +379,7 @@ int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit
     (void)qn_ctx_spend(ctx, n * (size_t)(cells.unit < 4096 ? cells.unit : 4096), QN_EFFORT_CELL * QN_WORK_FAN);
     return ctx->failed == QUOIN_OK;
   }
-  list(&cells);
+  list(&cells, on_line);
   (void)qn_ctx_spend(ctx, cells.work < QN_CELLS_WORK ? (size_t)cells.work : QN_CELLS_WORK, QN_EFFORT_CELL); /* what was too much is not done */
   if (on_line && cells.work > QN_CELLS_WORK && ctx->failed == QUOIN_OK) {
     ctx->failed = QUOIN_E_LIMIT; /* a point may be undecided, a stretch may not */

@@ -74,6 +74,9 @@ int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit
    and `opaque`. */
 int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user);
 
+/* The same along the edge of pairs of planes (around_pairs.c), for germs that have been sorted into smooth and singular ones. 0: the germs are not such (a stop aside), and none was given. */
+int qn_cells_pairs(qn_cells *cells);
+
 /* --- forms and vectors (around_form.c) --- */
 qn_int qn_settled(qn_xint a); /* the value, 0 when its sign is 0 by S2: nothing of a rounding is left to be read as a length */
 qn_xint qn_dot_x(qn_ctx *ctx, const qn_xint g[3], const qn_int v[3]);

@@ -3,7 +3,8 @@
    Legend: the line o + t d; g_i(t) = g0 + t g1 the gradient along it of a surface i that holds it (d.g_i = 0 all along), H_i its Hessian. Next to a point of
    the line the surfaces are a fan of sheets about it, to first order their tangent planes. The fan's order can change only where
    - a surface has no tangent plane: g_i = 0 (an apex: behind it the other nappe begins);
-   - two tangent planes are one: d.(g_i x g_j) = 0, a quadratic in t;
+   - two tangent planes are one: d.(g_i x g_j) = 0, a quadratic in t; of a pair of planes whose edge is the line (g_i = 0 all along) and a surface with g_j: a plane of the
+     pair is the tangent plane, eᵗH_i e = 0 with e = d x g_j, a quadratic in t too;
    - two surfaces that touch all along the line have the same curvature across it: with e = d x g the direction in the tangent plane, and g_i : g_j as a_i : a_j,
          a_j eᵗH_i e - a_i eᵗH_j e = 0.
      Of developable surfaces e is constant and a_i, a_j are linear in t; of doubly ruled ones a_i : a_j is constant and e is linear. The
@@ -74,13 +75,35 @@ static qn_xint bend(finder *f, const sheet *i, const sheet *j, qn_xint ai, qn_xi
   return qn_x_sub(f->ctx, x, y);
 }
 
-/* Two surfaces with one tangent plane all along the line. */
+/* e = d x g, at o and its change to o + d: the direction across the line in the tangent plane. */
+static void tangent_direction(finder *f, const sheet *x, qn_int e0[3], qn_int e1[3]) {
+  const qn_int *d = f->s->line->direction;
+  qn_int g[3];
+  settle(x->germ.g, g);
+  qn_cross_int(f->ctx, d, g, e0);
+  settle(x->g1, g);
+  qn_cross_int(f->ctx, d, g, e1);
+}
+
+/* A pair of planes whose edge is the line, and a surface that is smooth along it. */
+static void edge(finder *f, const sheet *pair, const sheet *other) {
+  qn_int e0[3], e1[3];
+  tangent_direction(f, other, e0, e1);
+  const qn_xint *h = pair->germ.h, mixed = qn_form_x(f->ctx, h, e0, e1);
+  add_turns(f, other, qn_form_x(f->ctx, h, e1, e1), qn_x_shl(f->ctx, mixed, 1), qn_form_x(f->ctx, h, e0, e0));
+}
+
+/* Two surfaces with one tangent plane all along the line, or of which one is singular there. */
 static void touching(finder *f, const sheet *i, const sheet *j) {
   qn_ctx *ctx = f->ctx;
   const qn_int *d = f->s->line->direction;
   const qn_xint nought = qn_x((qn_int){0, NULL});
-  if ((is_zero(i->germ.g) && is_zero(i->g1)) || (is_zero(j->germ.g) && is_zero(j->g1))) {
-    return; /* singular all along: a pair of planes' edge */
+  const int i_edge = is_zero(i->germ.g) && is_zero(i->g1), j_edge = is_zero(j->germ.g) && is_zero(j->g1);
+  if (i_edge || j_edge) {
+    if (i_edge != j_edge) {
+      edge(f, i_edge ? i : j, i_edge ? j : i);
+    }
+    return;
   }
   if (i->steady && j->steady) {
     const qn_xint *normal = is_zero(i->germ.g) ? i->g1 : i->germ.g;
@@ -97,11 +120,8 @@ static void touching(finder *f, const sheet *i, const sheet *j) {
     while (m < 2 && (qn_x_sign(i->g1[m]) == 0 || qn_x_sign(j->g1[m]) == 0)) {
       m++;
     }
-    qn_int g[3], e0[3], e1[3];
-    settle(i->germ.g, g);
-    qn_cross_int(ctx, d, g, e0);
-    settle(i->g1, g);
-    qn_cross_int(ctx, d, g, e1);
+    qn_int e0[3], e1[3];
+    tangent_direction(f, i, e0, e1);
     qn_xint ai = i->g1[m], aj = j->g1[m], mixed = bend(f, i, j, ai, aj, e0, e1);
     add_turns(f, i, bend(f, i, j, ai, aj, e1, e1), qn_x_shl(ctx, mixed, 1), bend(f, i, j, ai, aj, e0, e0));
   }

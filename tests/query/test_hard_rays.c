@@ -152,6 +152,15 @@ static const hard HARD[] = {
   {"21 d", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); halfspace(n=[0,-2,1],d=0); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1, {{0}}, {MINUS_INF, T("2")}},
   {"21 e", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); quadric([0,0,0,0,1,0,0,-2,0,0]); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1, {{0}},
    {MINUS_INF, {"0", 1, "2"}}},
+  /* The edge of pairs of planes, xy <= z beside it, which has ty = z for its tangent plane: y (z - 2y) <= 0; z^2 <= 2y^2; that and yz >= 0; y >= 0 in each. In the last
+     two pairs and a cone: y = 0 is the tangent plane at 1/2. */
+  {"21 f", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); quadric([0,-2,0,0,0,1,0,0,0,0]); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1, {{0}}, {MINUS_INF, T("2")}},
+  {"21 g", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); quadric([0,-2,1,0,0,0,0,0,0,0]); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1, {{0}},
+   {MINUS_INF, {"0", 1, "2"}}},
+  {"21 h", "intersection() { quadric([0,0,0,1,0,0,0,0,-1,0]); quadric([0,-2,1,0,0,0,0,0,0,0]); quadric([0,0,0,0,0,-1,0,0,0,0]); halfspace(n=[0,-1,0],d=0); }", {"0", "0", "0", "1", "0", "0"}, 0, 1,
+   {{0}}, {MINUS_INF, {"0", 1, "2"}}},
+  {"21 i", "difference() { rotate([0,180,0]) difference() { quadric([-3,1,-3,-2,6,2,0,0,0,0]); halfspace(n=[-1,0,1],d=0); quadric([1,1,-1,0,0,0,0,1,0,0]); } quadric([-3,1,-3,-2,6,2,0,0,0,0]); }",
+   {"1", "0", "1", "-1", "0", "-1"}, 0, 1, {{0}}, {MINUS_INF, T("0.5")}},
 };
 #define HARD_COUNT (sizeof HARD / sizeof *HARD)
 

@@ -583,6 +583,114 @@ static void curved_fans(void **state) {
   assert_true(fanned > 100 && shared > 100);
 }
 
+/* The half turns at which a leading form across the z axis is zero, as angles from 0 to pi: of linear forms one, of quadratic ones none or two. */
+static int angles_of(const surface *s, double out[2]) {
+  const double pi = 4 * atan(1);
+  const int *q = s->q;
+  if (q[6] != 0 || q[7] != 0) {
+    out[0] = atan2(-q[6], q[7]);
+    out[0] -= pi * floor(out[0] / pi);
+    return 1;
+  }
+  const int square = q[3] * q[3] - 4 * q[0] * q[1]; /* A x^2 + B y^2 + D x y */
+  if (square <= 0) {
+    return 0;
+  }
+  for (int i = 0; i < 2; i++) {
+    const double root = (i ? 1 : -1) * sqrt(square);
+    out[i] = q[1] != 0 ? atan2(-q[3] + root, 2 * q[1]) : i ? atan2(-q[0], q[3]) : pi / 2;
+    out[i] -= pi * floor(out[i] / pi);
+  }
+  return 2;
+}
+
+/* Pairs of planes with the z axis for their edge, rational and irrational, beside planes and curved surfaces that hold it: where no curved one has a tangent plane that is
+   another's, the cells are the sectors about the axis, exactly. */
+static void pairs_about_an_edge(void **state) {
+  (void)state;
+  enum { FAR = 3 };
+  const double pi = 4 * atan(1);
+  seed = 0xa0761d6478bd642fu;
+  size_t listed_all = 0, together = 0, curved_ones = 0, irrational = 0;
+  for (int round = 0; round < share_of(3000); round++) {
+    const size_t n = 2 + (size_t)below(MOST - 2);
+    surface s[MOST];
+    double angle[2 * MOST], cut[2 * MOST];
+    uint8_t curved[2 * MOST];
+    size_t count = 0, cuts = 0;
+    int good = 1;
+    for (size_t i = 0; i < n;) {
+      s[i] = (surface){{0}};
+      const int kind = i == 0 ? 0 : below(3); /* a pair, a plane, a curved one */
+      for (int k = 0; k < 8; k++) {
+        const int has = kind == 0 ? k == 0 || k == 1 || k == 3 : kind == 1 ? k >= 6 : k != 2;
+        s[i].q[k] = has ? below(2 * FAR + 1) - FAR : 0;
+      }
+      const int *q = s[i].q, square = q[3] * q[3] - 4 * q[0] * q[1];
+      int fresh = kind == 0 ? square != 0 : q[6] != 0 || q[7] != 0;
+      for (size_t k = 0; k < i && fresh; k++) {
+        fresh = !same(&s[i], &s[k]) && (kind != 1 || q[6] * s[k].q[7] != q[7] * s[k].q[6] || (s[k].q[6] == 0 && s[k].q[7] == 0));
+      }
+      if (!fresh) {
+        continue;
+      }
+      double at[2];
+      for (int k = angles_of(&s[i], at); k-- > 0;) {
+        angle[count] = at[k];
+        curved[count++] = kind == 2 && (q[0] != 0 || q[1] != 0 || q[3] != 0 || q[4] != 0 || q[5] != 0);
+      }
+      irrational += kind == 0 && square > 0 && (int)sqrt(square) * (int)sqrt(square) != square;
+      i++;
+    }
+    for (size_t i = 0; i < count; i++) {
+      size_t k = 0;
+      int shared = 0;
+      for (size_t j = 0; j < count; j++) {
+        const double apart = fabs(angle[i] - angle[j]);
+        if (j != i && (apart < 1e-9 || pi - apart < 1e-9)) {
+          good &= !curved[i];
+          shared |= j < i;
+          together++;
+        }
+      }
+      while (k < cuts && cut[k] < angle[i]) {
+        k++;
+      }
+      if (!shared) {
+        memmove(cut + k + 1, cut + k, (cuts - k) * sizeof *cut);
+        cut[k] = angle[i], cuts++;
+      }
+      curved_ones += curved[i];
+    }
+    if (!good) {
+      continue;
+    }
+    uint8_t there[1 << MOST] = {0};
+    for (size_t k = 0; k < 2 * cuts || k < 1; k++) {
+      const double left = cuts ? cut[k % cuts] : 0, right = cuts ? cut[(k + 1) % cuts] + ((k + 1) % cuts == 0 ? pi : 0) : 1, middle = (left + right) / 2 + (k >= cuts ? pi : 0);
+      const double x = cos(middle), y = sin(middle);
+      unsigned code = 0;
+      for (size_t i = 0; i < n; i++) {
+        const int *q = s[i].q;
+        const double linear = q[6] * x + q[7] * y, form = q[6] != 0 || q[7] != 0 ? linear : q[0] * x * x + q[1] * y * y + q[3] * x * y;
+        assert_true(fabs(form) > 1e-9);
+        code |= (unsigned)(form > 0) << i;
+      }
+      there[code] = 1;
+    }
+    world w;
+    open_world(&w);
+    for (int rounded = 0; rounded < 2; rounded++) {
+      listed a = cells_on(&w.ctx, n, s, ORIGIN, 1, rounded, 1);
+      assert_memory_equal(a.there, there, (size_t)1 << n);
+      listed_all++;
+    }
+    close_world(&w);
+  }
+  print_message("%zu lists, %zu sheets at an angle with others, %zu curved, %zu irrational pairs\n", listed_all, together, curved_ones, irrational);
+  assert_true(listed_all > share_min(2000) && together > share_min(1000) && curved_ones > share_min(1000) && irrational > share_min(500));
+}
+
 /* Every order of the surfaces, and every choice of their signs, gives the same cells. */
 static void orders(void **state) {
   (void)state;
@@ -631,7 +739,7 @@ int main(void) {
     cmocka_unit_test(plane_that_touches), cmocka_unit_test(sphere_on_an_edge), cmocka_unit_test(fans_about_a_circle), cmocka_unit_test(apexes),
     cmocka_unit_test(steinmetz), cmocka_unit_test(bent_alike), cmocka_unit_test(cusps),
     cmocka_unit_test(stacks_that_cross), cmocka_unit_test(rounding), cmocka_unit_test(random_germs), cmocka_unit_test(many_planes),
-    cmocka_unit_test(fans), cmocka_unit_test(curved_fans), cmocka_unit_test(orders),
+    cmocka_unit_test(fans), cmocka_unit_test(curved_fans), cmocka_unit_test(pairs_about_an_edge), cmocka_unit_test(orders),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
