@@ -31,11 +31,17 @@ static void see_tile_origins(qn_packet *p) {
   }
 }
 
-/* Four lanes are two columns and two rows. */
+/* Four lanes are two columns and two rows, eight of them four columns. */
 static void fill_tile(qn_packet *p, double (*to)[QN_LANES]) {
   for (int i = 0; i < 3; i++) {
     const double *a = p->across[i], *u = p->up[i];
-#if QN_W == 4
+#if QN_W == 8
+    const vd columns = vload(a), up = vload(u), pairs[2] = {vlanes(columns, 0, 1, 0, 1, 2, 3, 2, 3), vlanes(columns, 4, 5, 4, 5, 6, 7, 6, 7)};
+    const vd rows[4] = {vlanes(up, 0, 0, 1, 1, 0, 0, 1, 1), vlanes(up, 2, 2, 3, 3, 2, 2, 3, 3), vlanes(up, 4, 4, 5, 5, 4, 4, 5, 5), vlanes(up, 6, 6, 7, 7, 6, 6, 7, 7)};
+    for (unsigned q = 0; q < QN_LANES_NOW / 8; q++) {
+      vstore(to[i] + 8 * q, vadd(pairs[q >> 1 & 1], rows[(q & 1) | (q >> 1 & 2)]));
+    }
+#elif QN_W == 4
     vd pairs[4], rows[4];
     for (int k = 0; k < 4; k++) {
       pairs[k] = vfour(a[2 * k], a[2 * k + 1], a[2 * k], a[2 * k + 1]), rows[k] = vfour(u[2 * k], u[2 * k], u[2 * k + 1], u[2 * k + 1]);

@@ -106,6 +106,7 @@ QN_INLINE vd vwords(const uint32_t *p) { return _mm512_castsi512_pd(_mm512_cvtep
 QN_INLINE vm vsame(vd a, vd b, uint64_t where) {
   return _mm512_testn_epi64_mask(_mm512_xor_si512(_mm512_castpd_si512(a), _mm512_castpd_si512(b)), _mm512_set1_epi64((long long)where));
 }
+QN_INLINE vd vlanes(vd v, int a, int b, int c, int d, int e, int f, int g, int h) { return _mm512_permutex2var_pd(v, _mm512_set_epi64(h, g, f, e, d, c, b, a), v); } /* those lanes of v */
 QN_INLINE vd vswap(vd a) { return _mm512_permutex2var_pd(a, _mm512_set_epi64(6, 7, 4, 5, 2, 3, 0, 1), a); } /* neighbours change places: lanes 0 and 1, 2 and 3, ... */
 /* Lanes j and j + 1 of a and b in turn: a0 b0 a1 b1 into to[0], a2 b2 a3 b3 into to[1], and so on; no alignment. */
 QN_INLINE void vweave(vd a, vd b, double *const to[QN_W / 2]) {
