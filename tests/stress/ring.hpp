@@ -6,8 +6,8 @@
 // "Small" is 2^-1000 of the numbers there, which is no proof, but far below any feature that models of such numbers have.
 //
 // What is next to the line can change where two of the surfaces that hold it change their angle from 0, or where one has an apex. These parameters
-// are added to the line's events, and those where two that touch all along it have one curvature across it. Two points of each stretch are looked at
-// all the same, and the ray is not judged if they differ.
+// are added to the line's events, those where two that touch all along it have one curvature across it, and those where one touches a plane of a pair of
+// planes whose edge is the line. Two points of each stretch are looked at all the same, and the ray is not judged if they differ.
 #pragma once
 #include "spec.hpp"
 #include "../oracle/evaluate.hpp"
@@ -67,6 +67,14 @@ inline Q near_root(const Root &r, int bits) {
   return r.a0() + r.a1() * Q(s, shifted_one(bits));
 }
 
+// p0 + p1 t + p2 t2
+inline std::vector<Root> all_roots(const Q &p0, const Q &p1, const Q &p2) {
+  Z by = common(common(p0.denominator(), p1.denominator()), p2.denominator());
+  Line1 l = solve(Quadratic{over(p2, by), over(p1, by), over(p0, by)});
+  if (l.touches) l.roots.push_back(Root(-p1 / (Q(2) * p2)));
+  return l.roots;
+}
+
 // Parameters where two surfaces that touch all along the line have one curvature across it: roots of
 //     K(t) = (g_j.w) eᵗQ_i e - (g_i.w) eᵗQ_j e,   e = d x g_i,
 // a cubic, from four values of it, without its factors g_i.w.
@@ -96,13 +104,16 @@ inline std::vector<Root> equal_bends(const Quadric &a, const Quadric &b, const V
     if (rest != 0 || (k[1] == 0 && k[2] == 0 && k[3] == 0)) break;
     k = quotient;
   }
-  std::vector<Root> roots;
-  if (k[3] != 0) return roots;
-  Z by = common(common(k[0].denominator(), k[1].denominator()), k[2].denominator());
-  Line1 l = solve(Quadratic{over(k[2], by), over(k[1], by), over(k[0], by)});
-  roots = l.roots;
-  if (l.touches) roots.push_back(Root(-k[1] / (Q(2) * k[2])));
-  return roots;
+  return k[3] != 0 ? std::vector<Root>() : all_roots(k[0], k[1], k[2]);
+}
+
+// Parameters where a surface that holds the line touches a plane of a pair that is one quadric, singular all along the line: the pair is the same form on every section
+// across the line, so it vanishes on the tangent e = d x g there: eᵗQe = 0, a quadratic. (Where it is 0 for all t the tangent plane turns nowhere, and the surface
+// leaves it to the other side at an apex only.)
+inline std::vector<Root> at_planes(const Quadric &pair, const V &g0, const V &g1, const V &d) {
+  const V e0 = cross(d, g0), e1 = cross(d, g1);
+  const std::array<Q, 4> a{e0[0], e0[1], e0[2], Q(0)}, b{e1[0], e1[1], e1[2], Q(0)};
+  return all_roots(pair.bilinear(a, a), Q(2) * pair.bilinear(a, b), pair.bilinear(b, b));
 }
 
 inline Answer beside(const Node &solid, const Surfaces &surfaces, const V &o, const V &d) {
@@ -124,6 +135,7 @@ inline Answer beside(const Node &solid, const Surfaces &surfaces, const V &o, co
   out.zero_surfaces = (int)zeros.size();
   std::vector<V> g0, g1; // gradients along the line: g0 + t g1
   for (auto *q : zeros) g0.push_back(q->gradient(o)), g1.push_back(q->gradient(o + d) - g0.back());
+  auto edge = [&](size_t i) { return zero(g0[i]) && zero(g1[i]); }; // of two planes
   for (size_t i = 0; i < zeros.size(); i++) {
     for (size_t k = 0; k < 3; k++)
       if (g1[i][k] != 0) {
@@ -132,15 +144,12 @@ inline Answer beside(const Node &solid, const Surfaces &surfaces, const V &o, co
         break;
       }
     for (size_t j = 0; j < i; j++) { // d . (g_i x g_j): a quadratic
-      Quadratic p;
       Q a = dot(d, cross(g1[i], g1[j])), b = dot(d, cross(g0[i], g1[j]) + cross(g1[i], g0[j])), c = dot(d, cross(g0[i], g0[j]));
-      Z by = common(common(a.denominator(), b.denominator()), c.denominator());
-      p.a = over(a, by), p.b = over(b, by), p.c = over(c, by);
-      Line1 l = solve(p);
-      for (auto &r : l.roots) event(r, -1);
-      if (l.touches) event(Root(-b / (Q(2) * a)), -1);
-      if (l.zero)
-        for (auto &r : equal_bends(*zeros[i], *zeros[j], o, d)) event(r, -1);
+      std::vector<Root> turns;
+      if (edge(i)) turns = at_planes(*zeros[i], g0[j], g1[j], d);
+      else if (edge(j)) turns = at_planes(*zeros[j], g0[i], g1[i], d);
+      else turns = a == 0 && b == 0 && c == 0 ? equal_bends(*zeros[i], *zeros[j], o, d) : all_roots(c, b, a);
+      for (auto &r : turns) event(r, -1);
     }
   }
   std::sort(events.begin(), events.end(), [](const Event &a, const Event &b) { return a.t < b.t; });
