@@ -161,6 +161,9 @@ static const hard HARD[] = {
    {{0}}, {MINUS_INF, {"0", 1, "2"}}},
   {"21 i", "difference() { rotate([0,180,0]) difference() { quadric([-3,1,-3,-2,6,2,0,0,0,0]); halfspace(n=[-1,0,1],d=0); quadric([1,1,-1,0,0,0,0,1,0,0]); } quadric([-3,1,-3,-2,6,2,0,0,0,0]); }",
    {"1", "0", "1", "-1", "0", "-1"}, 0, 1, {{0}}, {MINUS_INF, T("0.5")}},
+  /* The same with a pair whose plane the cone touches all along the line, u = x - z = 0 against u (x + z) + y2 = 0: behind its apex the cone bends to the other side. */
+  {"21 j", "difference() { rotate([0,180,0]) difference() { quadric([-3,1,-3,-2,6,2,0,0,0,0]); halfspace(n=[-1,1,1],d=0); quadric([1,1,-1,0,0,0,0,0,0,0]); } quadric([-3,0,-3,-2,6,2,0,0,0,0]); }",
+   {"1", "0", "1", "-1", "0", "-1"}, 0, 1, {{0}}, {T("1"), INF}},
 };
 #define HARD_COUNT (sizeof HARD / sizeof *HARD)
 
