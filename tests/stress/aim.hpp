@@ -127,23 +127,47 @@ inline V direction(const Ray &r) { return {Q(r.d[0]), Q(r.d[1]), Q(r.d[2])}; }
 enum Bundle { Alone, Same, Sheet, Fan, Meet, Mixed, Grid, Near, Bundles };
 static const char *const BUNDLES[Bundles] = {"alone", "same ray", "parallel", "from one place", "to one place", "mixed", "grid", "doubles beside"};
 
+// Two ways across a ray, or any.
+inline void across(Random &r, const Ray &first, double size, double u[3], double v[3]) {
+  for (int i = 0; i < 3; i++) u[i] = r.range(-1, 1), v[i] = r.range(-1, 1);
+  if (!r.chance(40)) return;
+  double c[3] = {first.d[1], first.d[2], first.d[0]};
+  for (int i = 0; i < 3; i++) {
+    int a = (i + 1) % 3, b = (i + 2) % 3;
+    u[i] = (first.d[a] * c[b] - first.d[b] * c[a]) / size / size;
+  }
+  for (int i = 0; i < 3; i++) {
+    int a = (i + 1) % 3, b = (i + 2) % 3;
+    v[i] = (first.d[a] * u[b] - first.d[b] * u[a]) / size;
+  }
+}
+// A kind of range, and a ray's. at: where the ray meets its spot.
+struct Range { int range, which, steps; };
+inline Range a_cut(Random &r) {
+  Range c;
+  c.range = r.below(12), c.which = r.below(3), c.steps = r.range(0, 12);
+  return c;
+}
+inline void cut(Random &r, const Range &c, double at, Ray &x) {
+  x.from = -INFINITY, x.to = INFINITY;
+  if (c.range < 3) x.from = 0;
+  else if (c.range == 3) x.from = std::ldexp((double)r.range(-64, 64), -2);
+  else if (c.range == 4) x.to = std::ldexp((double)r.range(-64, 64), -2);
+  else if (c.range == 5) {
+    x.from = std::ldexp((double)r.range(-64, 64), -2), x.to = x.from + std::ldexp((double)r.range(0, 64), -2);
+  } else if (c.range > 9 && std::isfinite(at)) { // some spacings of doubles beside the spot
+    double beside = at + at * (double)r.range(-(1 << c.steps), 1 << c.steps) * 0x1p-53;
+    if (c.which != 1) x.from = beside;
+    if (c.which) x.to = c.which == 1 ? beside : beside + std::fabs(at) * (double)r.below(2 << c.steps) * 0x1p-53;
+  }
+}
+
 // The rays about a first one. n: how many; at: where that meets its spot.
 inline void bundle(Random &r, const Ray &first, double at, int kind, size_t n, const std::vector<const Spot *> &spots, std::vector<Ray> &out) {
   out.clear();
   double size = std::max({std::fabs(first.d[0]), std::fabs(first.d[1]), std::fabs(first.d[2])});
   double step = std::ldexp(size, -r.range(0, r.chance(50) ? 8 : 52)), u[3], v[3];
-  for (int i = 0; i < 3; i++) u[i] = r.range(-1, 1), v[i] = r.range(-1, 1);
-  if (r.chance(40)) { // across the direction
-    double c[3] = {first.d[1], first.d[2], first.d[0]};
-    for (int i = 0; i < 3; i++) {
-      int a = (i + 1) % 3, b = (i + 2) % 3;
-      u[i] = (first.d[a] * c[b] - first.d[b] * c[a]) / size / size;
-    }
-    for (int i = 0; i < 3; i++) {
-      int a = (i + 1) % 3, b = (i + 2) % 3;
-      v[i] = (first.d[a] * u[b] - first.d[b] * u[a]) / size;
-    }
-  }
+  across(r, first, size, u, v);
   size_t special = (size_t)r.below((int)n);
   double t = std::ldexp((double)r.range(1, 64), -r.range(0, 4));
   for (size_t k = 0; k < n; k++) {
@@ -175,19 +199,7 @@ inline void bundle(Random &r, const Ray &first, double at, int kind, size_t n, c
     if (x.d[0] == 0 && x.d[1] == 0 && x.d[2] == 0) x = first;
     out.push_back(x);
   }
-  int range = r.below(12), which = r.below(3), steps = r.range(0, 12);
-  for (auto &x : out) {
-    x.from = -INFINITY, x.to = INFINITY;
-    if (range < 3) x.from = 0;
-    else if (range == 3) x.from = std::ldexp((double)r.range(-64, 64), -2);
-    else if (range == 4) x.to = std::ldexp((double)r.range(-64, 64), -2);
-    else if (range == 5) {
-      x.from = std::ldexp((double)r.range(-64, 64), -2), x.to = x.from + std::ldexp((double)r.range(0, 64), -2);
-    } else if (range > 9 && std::isfinite(at)) { // some spacings of doubles beside the spot
-      double beside = at + at * (double)r.range(-(1 << steps), 1 << steps) * 0x1p-53;
-      if (which != 1) x.from = beside;
-      if (which) x.to = which == 1 ? beside : beside + std::fabs(at) * (double)r.below(2 << steps) * 0x1p-53;
-    }
-  }
+  const Range range = a_cut(r);
+  for (auto &x : out) cut(r, range, at, x);
 }
 } // namespace stress

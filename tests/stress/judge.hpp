@@ -1,6 +1,6 @@
 // What quoin says of a ray or a point, asked in every way there is, against what it must say: the quick judge, or CGAL's exact numbers.
 #pragma once
-#include "aim.hpp"
+#include "grid.hpp"
 #include "point.hpp"
 #include "quick.hpp"
 #include "ring.hpp"
@@ -26,10 +26,11 @@ inline Answer2 copy(const quoin_intervals &a) {
 inline quoin_ray plain(const Ray &r) { return {{r.o[0], r.o[1], r.o[2]}, {r.d[0], r.d[1], r.d[2]}, r.from, r.to}; }
 
 // How a ray is asked.
-enum Way { One, Many, ManyBoundary, Hits, Hit, Text, Spots, Blocked, ManyText, Ways };
+enum Way { One, Many, ManyBoundary, Hits, Hit, Text, Spots, Blocked, ManyText, GridHits, GridIntervals, GridBoundary, Ways };
 static const char *const WAYS[Ways] = {"quoin_ray_intervals", "quoin_ray_intervals_many", "quoin_ray_intervals_many with boundary", "quoin_first_hits", "quoin_first_hit", "quoin_ray_intervals_text",
-                                        "quoin_first_spots", "quoin_rays_blocked", "quoin_ray_intervals_many_text"};
-inline bool is_hit(int way) { return way == Hits || way == Hit || way == Spots || way == Blocked; }
+                                        "quoin_first_spots", "quoin_rays_blocked", "quoin_ray_intervals_many_text", "quoin_grid_hits", "quoin_grid_intervals", "quoin_grid_intervals with boundary"};
+inline bool is_hit(int way) { return way == Hits || way == Hit || way == Spots || way == Blocked || way == GridHits; }
+inline bool is_grid(int way) { return way >= GridHits; }
 struct Reply { Answer2 answer; quoin_hit hit{}; };
 
 // Scratch that runs the wide code of one instruction set (or of the widest below it that this machine has).
@@ -46,7 +47,7 @@ struct Work {
   Work(const Work &) = delete;
 };
 
-inline std::vector<Reply> ask_rays(const Model &model, quoin_work *work, const std::vector<Ray> &rays, int way) {
+inline std::vector<Reply> ask_rays(const Model &model, quoin_work *work, const std::vector<Ray> &rays, int way, const GridPart &grid = GridPart()) { // grid: whose rays they are, when it is asked
   struct { quoin_scene *scene; quoin_work *work; } m{model.scene, work};
   std::vector<Reply> out(rays.size());
   std::vector<quoin_ray> q;
@@ -75,9 +76,20 @@ inline std::vector<Reply> ask_rays(const Model &model, quoin_work *work, const s
       }, &out);
     if (s != QUOIN_OK)
       for (auto &o : out) o.answer.status = s;
-  } else if (way == Spots) {
+  } else if (way == GridIntervals || way == GridBoundary) {
+    quoin_grid_answer a;
+    quoin_status s = quoin_grid_intervals(m.scene, m.work, &grid.of, grid.x0, grid.y0, grid.x1, grid.y1, way == GridBoundary ? QUOIN_WANT_BOUNDARY : 0, &a);
+    if (s == QUOIN_OK && (a.rays != q.size() || !a.boundary_of != (way != GridBoundary))) s = QUOIN_E_ARGUMENT; // a wrong answer
+    for (size_t i = 0; i < out.size(); i++) {
+      quoin_intervals one{};
+      if (s == QUOIN_OK) one.count = a.inside_of[i].count, one.inside = a.inside + a.inside_of[i].first;
+      if (s == QUOIN_OK && a.boundary_of) one.boundary_count = a.boundary_of[i].count, one.boundary = a.boundary + a.boundary_of[i].first;
+      out[i].answer = copy(one), out[i].answer.status = s;
+    }
+  } else if (way == Spots || way == GridHits) {
     std::vector<quoin_spot> spots(rays.size());
-    quoin_status s = quoin_first_spots(m.scene, m.work, q.size(), q.data(), QUOIN_WANT_T, spots.data());
+    quoin_status s = way == Spots ? quoin_first_spots(m.scene, m.work, q.size(), q.data(), QUOIN_WANT_T, spots.data())
+                                  : quoin_grid_hits(m.scene, m.work, &grid.of, grid.x0, grid.y0, grid.x1, grid.y1, QUOIN_WANT_T, spots.data());
     for (size_t i = 0; i < out.size(); i++) {
       out[i].hit.found = spots[i].surface != QUOIN_NO_SURFACE, out[i].hit.t = spots[i].t, out[i].hit.leaving = spots[i].leaving != 0;
       out[i].answer.status = s;
@@ -209,7 +221,7 @@ struct Bench { // one model and its judges
       if (way == Blocked) return check_blocked<E>(in, ray, reply.hit, compare);
       if (is_hit(way)) return check_hit<E>(in, ray, reply.hit, compare, nearest, rounded);
       Verdict v = check<E>(in, ray, reply.answer.inside, compare, nearest, rounded);
-      if (v != Right || way == Many) return v;
+      if (v != Right || way == Many || way == GridIntervals) return v;
       return check<E>(on, ray, reply.answer.boundary, compare, nearest, rounded);
     }
   };

@@ -121,6 +121,62 @@ static void ask_points(Bench &b, uint64_t seed, uint64_t spots_seed, Random &r, 
   }
 }
 
+// Asks for a bundle or a grid and judges every answer. False: one is wrong.
+struct Asked { std::vector<Ray> rays; int way, isa; GridPart grid; };
+static bool ask(Bench &b, const Asked &a, const Line &line, const std::string &frame, uint64_t seed, uint64_t spots_seed, Random &r, const Options &o, Totals &t) {
+  const std::vector<Ray> &rays = a.rays;
+  const int way = a.way, isa = a.isa;
+  const GridPart &grid = a.grid;
+  const size_t n = rays.size();
+  double t0 = now();
+  auto replies = ask_rays(b.model, b.work(isa), rays, way, grid);
+  t.asking += now() - t0;
+  t.census.count("way", WAYS[way], n), t.census.count("aim", AIMS[line.kind], n), t.census.count("isa", ISAS[isa], n);
+  const bool contact = line.spot >= b.contacts.data() && line.spot < b.contacts.data() + b.contacts.size();
+  t.census.count("spot", contact ? "contact" : SPOTS[line.spot->kind], n);
+  Ulps *const ulps[2] = {&t.census.ends[std::string("aim ") + AIMS[line.kind]], &t.census.ends["frame " + frame]};
+  bool aimed = false; // the exact judge, at the present ray
+  for (size_t i = 0; i < n; i++) {
+    size_t ends = 0;
+    t.rays++;
+    double t1 = now();
+    bool again = i && memcmp(rays[i].o, rays[i - 1].o, sizeof rays[i].o + sizeof rays[i].d) == 0;
+    if (!again) b.aim_quick(rays[i]), aimed = false;
+    Verdict v = b.judge_quick(rays[i], replies[i], way, ends, ulps);
+    if (!again && b.known) t.census.count("line", b.quick.zeros.empty() ? "in no surface" : b.quick.zeros.size() == 1 ? "in one surface" : "in two surfaces");
+    t.quickly += now() - t1;
+    if (v == Right) {
+      t.quick++, t.ends += ends;
+      if (r.below(1000) >= o.share) continue;
+    }
+    ends = 0;
+    double t2 = now();
+    if (!again || !aimed) b.aim_exact(rays[i]);
+    aimed = true;
+    Verdict e = b.judge_exact(rays[i], replies[i], way, ends);
+    t.exactly += now() - t2;
+    if (e == Unjudged || e == Unknown) {
+      t.unjudged += v != Right;
+      if (v == Wrong) {
+        fprintf(stderr, "the judges disagree: quick says wrong, exact does not judge: --again %llu\n", (unsigned long long)seed);
+        t.wrong++;
+      }
+      continue;
+    }
+    if ((v == Wrong) != (e == Wrong) && v != Unknown) fprintf(stderr, "the judges disagree: --again %llu\n", (unsigned long long)seed), t.wrong++;
+    if (v != Right) {
+      t.exact++, t.ends += ends;
+      if (!again && b.exact_answer.zero_surfaces) t.census.count("line", b.exact_answer.zero_surfaces > 2 ? "in three surfaces or more" : "in two that touch");
+    }
+    if (e == Wrong) {
+      Case c{b.spec, rays, way, isa, spots_seed, grid};
+      found(t, o, c, seed, "wrong ray");
+      return false;
+    }
+  }
+  return true;
+}
+
 static void one_model(uint64_t seed, const Options &o, Totals &t) {
   Random r(seed);
   Style st;
@@ -155,53 +211,20 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     bundle(r, first, line.t, kind, n, b->spots, rays);
     if (way == ManyText)
       for (auto &x : rays) x.from = rays[0].from, x.to = rays[0].to;
-    int isa = r.below(3);
-    double t0 = now();
-    auto replies = ask_rays(b->model, b->work(isa), rays, way);
-    t.asking += now() - t0;
-    t.census.count("bundle", BUNDLES[kind], n), t.census.count("way", WAYS[way], n), t.census.count("aim", AIMS[line.kind], n), t.census.count("isa", ISAS[isa], n);
-    const bool contact = line.spot >= b->contacts.data() && line.spot < b->contacts.data() + b->contacts.size();
-    t.census.count("spot", contact ? "contact" : SPOTS[line.spot->kind], n);
-    Ulps *const ulps[2] = {&t.census.ends[std::string("aim ") + AIMS[line.kind]], &t.census.ends["frame " + frame]};
-    bool aimed = false; // the exact judge, at the present ray
-    for (size_t i = 0; i < n; i++) {
-      size_t ends = 0;
-      t.rays++;
-      double t1 = now();
-      bool again = i && memcmp(rays[i].o, rays[i - 1].o, sizeof rays[i].o + sizeof rays[i].d) == 0;
-      if (!again) b->aim_quick(rays[i]), aimed = false;
-      Verdict v = b->judge_quick(rays[i], replies[i], way, ends, ulps);
-      if (!again && b->known) t.census.count("line", b->quick.zeros.empty() ? "in no surface" : b->quick.zeros.size() == 1 ? "in one surface" : "in two surfaces");
-      t.quickly += now() - t1;
-      if (v == Right) {
-        t.quick++, t.ends += ends;
-        if (r.below(1000) >= o.share) continue;
-      }
-      ends = 0;
-      double t2 = now();
-      if (!again || !aimed) b->aim_exact(rays[i]);
-      aimed = true;
-      Verdict e = b->judge_exact(rays[i], replies[i], way, ends);
-      t.exactly += now() - t2;
-      if (e == Unjudged || e == Unknown) {
-        t.unjudged += v != Right;
-        if (v == Wrong) {
-          fprintf(stderr, "the judges disagree: quick says wrong, exact does not judge: --again %llu\n", (unsigned long long)seed);
-          t.wrong++;
-        }
-        continue;
-      }
-      if ((v == Wrong) != (e == Wrong) && v != Unknown) fprintf(stderr, "the judges disagree: --again %llu\n", (unsigned long long)seed), t.wrong++;
-      if (v != Right) {
-        t.exact++, t.ends += ends;
-        if (!again && b->exact_answer.zero_surfaces) t.census.count("line", b->exact_answer.zero_surfaces > 2 ? "in three surfaces or more" : "in two that touch");
-      }
-      if (e == Wrong) {
-        Case c{spec, rays, way, isa, spots_seed};
-        found(t, o, c, seed, "wrong ray");
-        return;
-      }
-    }
+    t.census.count("bundle", BUNDLES[kind], n);
+    if (!ask(*b, {rays, way, r.below(3), {}}, line, frame, seed, spots_seed, r, o, t)) return;
+  }
+  Random g(seed ^ 0x67726964); // of grids, so that bundles are the same with them or without
+  for (int k = wide ? 100 : g.range(6, 16); k > 0; k--) {
+    Line line;
+    Ray first;
+    const int view = wide ? (int)Lattice : g.below(Views);
+    if (!aim(g, b->spots, gaps, line, view == Grazing ? g.below(Along + 1) : wide && g.chance(90) ? Gap : -1) || !to_ray(line, first)) continue;
+    Asked a{{}, g.range(GridHits, GridBoundary), g.below(3), {}};
+    if (!a_grid(g, first, line, b->balls, view, wide ? 1 : 10, a.grid)) continue;
+    a.rays = rays_of(a.grid);
+    t.census.count("grid", std::string(a.grid.of.converging ? "converging " : "parallel ") + VIEWS[view], a.rays.size());
+    if (!ask(*b, a, line, frame, seed, spots_seed, g, o, t)) return;
   }
   t.middles += b->middles;
   t.census.count("solved", "in doubles", b->quick.used[0]), t.census.count("solved", "in quadruple precision", b->quick.used[1]);

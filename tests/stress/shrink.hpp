@@ -11,13 +11,14 @@ struct Case {
   std::vector<Ray> rays;
   int way = One, isa = 2;
   uint64_t spots_seed = 0;
+  GridPart grid{}; // whose rays they are, when it is asked
 };
 
 // The first ray that is answered wrong for certain, or -1.
 inline int first_wrong(const Case &c, std::string *said = nullptr) {
   try {
     Bench b(c.spec, c.spots_seed);
-    auto replies = ask_rays(b.model, b.work(c.isa), c.rays, c.way);
+    auto replies = ask_rays(b.model, b.work(c.isa), c.rays, c.way, c.grid);
     for (size_t i = 0; i < c.rays.size(); i++) {
       size_t rounded = 0;
       b.aim_quick(c.rays[i]);
@@ -57,6 +58,36 @@ inline void shrink(Case &c, double seconds) {
     c = std::move(x);
     return true;
   };
+  for (int way : {(int)One, (int)Hit}) { // the grid's rays, if asked alone they fail
+    Case x = c;
+    x.way = way;
+    if (is_grid(c.way)) keep(x);
+  }
+  for (bool again = is_grid(c.way); again && now() < end;) { // else a smaller grid, plainer
+    again = false;
+    auto edit = [&](const std::function<void(GridPart &)> &f) {
+      Case x = c;
+      f(x.grid);
+      x.rays = rays_of(x.grid);
+      for (auto &ray : x.rays)
+        if (ray.d[0] == 0 && ray.d[1] == 0 && ray.d[2] == 0) return;
+      if (memcmp(&x.grid, &c.grid, sizeof x.grid) != 0 && !x.rays.empty() && keep(x)) again = true;
+    };
+    edit([](GridPart &g) { g.x1 -= (g.x1 - g.x0) / 2; });
+    edit([](GridPart &g) { g.x0 += (g.x1 - g.x0) / 2; });
+    edit([](GridPart &g) { g.y1 -= (g.y1 - g.y0) / 2; });
+    edit([](GridPart &g) { g.y0 += (g.y1 - g.y0) / 2; });
+    edit([](GridPart &g) { g.of.from = -INFINITY; });
+    edit([](GridPart &g) { g.of.to = INFINITY; });
+    for (int k = 0; k < 12; k++)
+      edit([k](GridPart &g) { (k < 3 ? g.of.o : k < 6 ? g.of.d : k < 9 ? g.of.u : g.of.v)[k % 3] = 0; });
+    again = smaller(c.spec, [&](const Spec &s) {
+              Case x = c;
+              x.spec = s;
+              return keep(x);
+            }) || again;
+  }
+  if (is_grid(c.way)) return;
   { // one ray alone, if that fails; a plainer way to ask
     int w = first_wrong(c);
     if (w < 0) return;
@@ -202,6 +233,13 @@ inline std::string report(const Case &c, const std::string &title, const std::st
   w << "// " << title << "\n// again: " << again << "\n// asked: " << WAYS[c.way] << ", " << c.rays.size() << " rays, the wrong one is number " << wrong << "\n";
   w << "// QUOIN_ISA=" << ISAS[c.isa] << "\n";
   w.precision(17);
+  if (is_grid(c.way)) {
+    const quoin_grid &g = c.grid.of;
+    const std::pair<const char *, const double *> all[] = {{"o", g.o}, {" u", g.u}, {" v", g.v}, {" d", g.d}};
+    w << "// grid ";
+    for (auto &a : all) w << a.first << " " << a.second[0] << " " << a.second[1] << " " << a.second[2];
+    w << " of " << g.width << " x " << g.height << (g.converging ? ", converging" : "") << ": columns " << c.grid.x0 << " to " << c.grid.x1 << ", rows " << c.grid.y0 << " to " << c.grid.y1 << "\n";
+  }
   for (size_t i = 0; i < c.rays.size(); i++) {
     const Ray &r = c.rays[i];
     w << "// ray";
