@@ -273,7 +273,7 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
     const V along{Q(e[0]), Q(e[1]), Q(e[2])}, normal{Q(e[0]), Q(e[1]), Q(-e[2])};
     for (int i = 1; i < std::max(2, std::min(n, 6)); i++) {
       Spec s;
-      switch (r.below(6)) {
+      switch (r.below(7)) {
       case 0: case 1: { // the tangent plane
         Q side = r.chance(50) ? Q(1) : Q(-1);
         s = simple(Shape::HalfSpace, {side * normal[0], side * normal[1], side * normal[2], r.chance(80) ? Q(0) : a_gap(r, st)});
@@ -286,7 +286,16 @@ inline Spec a_motif(Random &r, const Style &st, int n) {
         break;
       }
       case 3: s = moved(Q(r.range(-3, 3)) * along, cone); break; // another cone, its apex on the line
-      case 4: // q + f (normal.x) (a plane): it holds the line, and touches the cone along it where f's plane does too
+      case 4: { // a pair of planes on the line, as one quadric
+        auto plane = [&] {
+          V m = r.chance(30) ? normal : cross(along, V{Q(r.range(-3, 3)), Q(r.range(1, 3)), Q(r.range(-3, 3))});
+          return zero(m) ? normal : m;
+        };
+        const V m = plane(), n = plane();
+        s = simple(Shape::General, {m[0] * n[0], m[1] * n[1], m[2] * n[2], m[0] * n[1] + m[1] * n[0], m[0] * n[2] + m[2] * n[0], m[1] * n[2] + m[2] * n[1], 0, 0, 0, 0});
+        break;
+      }
+      case 5: // q + f (normal.x) (a plane): it holds the line, and touches the cone along it where f's plane does too
       default: {
         V m = r.chance(50) ? normal : cross(along, V{Q(r.range(-2, 2)), Q(r.range(-2, 2)), Q(r.range(1, 2))});
         if (zero(m)) m = normal;
