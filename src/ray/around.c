@@ -1,6 +1,7 @@
 /* The side of a point that lies on surfaces: the program asked in every cell next to it (design S6). */
 #include "base/limits.h"
 #include "ray/around_cells.h"
+#include "ray/scratch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -138,7 +139,7 @@ static void gather(asking *a, const uint32_t *near_halves) {
   a->first[a->n] = (uint32_t)count;
 }
 
-static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point, int on_line) {
+static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const qn_point *point, const qn_int *line) {
   const quoin_scene *scene = a->scene;
   const uint32_t *surfaces = a->surfaces;
   const size_t n = a->n;
@@ -173,7 +174,7 @@ static quoin_status ask_around(asking *a, qn_ctx *ctx, qn_counts *counts, const 
       qn_surface_germ_at(ctx, surface, point, &germs[i]);
     }
   }
-  if (!qn_cells_list(ctx, n, germs, on_line, ask, a)) {
+  if (!qn_cells_list(ctx, n, germs, line, ask, a)) {
     a->seen = 3;
   }
   (void)qn_scratch_spend(a->scratch, 0, 1); /* the list has */
@@ -210,7 +211,7 @@ quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_p
   if (a.n == 0) {
     a.seen = a.value ? 2u : 1u;
   } else {
-    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point, how == QN_AROUND_LINE);
+    status = ask_around(&a, ctx, qn_scratch_counts(scratch), point, how == QN_AROUND_LINE ? scratch->line->direction : NULL);
   }
   for (size_t i = 0; i < leaf_count && how == QN_AROUND_HELD; i++) {
     if (a.failing[i] == 0) {

@@ -16,7 +16,7 @@ typedef struct qn_near_leaf { uint32_t leaf; uint32_t first, count; } qn_near_le
 /* The side of a point, given the leaves that hold it (closed) and their half-spaces that vanish there. The program is left
    at rest. Distinct surfaces that vanish are combined as first-order tangent cones allow; at parallel gradients by second-order
    forms; where neither suffices QUOIN_BOUNDARY.
-   QN_AROUND_LINE: all surfaces that vanish hold one line. QN_AROUND_HELD: the scratch's program already holds the leaves that have no half-space vanishing there,
+   QN_AROUND_LINE: all surfaces that vanish hold the scratch's line, which has been made exact, and the point is none of its turns. QN_AROUND_HELD: the scratch's program already holds the leaves that have no half-space vanishing there,
    they are not listed, and it is left as it was. */
 enum { QN_AROUND_POINT, QN_AROUND_LINE, QN_AROUND_HELD };
 quoin_status qn_around(const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count,

@@ -320,7 +320,7 @@ static void give_some(qn_cells *cells) {
   }
 }
 
-static void list(qn_cells *cells, int on_line) {
+static void list(qn_cells *cells, const qn_int *line) {
   enum { MANY = 16 }; /* few are sorted first: most often they are independent */
   qn_ctx *ctx = cells->ctx;
   const size_t n = cells->n;
@@ -335,7 +335,7 @@ static void list(qn_cells *cells, int on_line) {
   cells->free = cells->order + n;
   memset(cells->signs, 0, 2 * n + 1);
   find_singular(cells);
-  if (on_line && cells->singular_count != 0 && qn_cells_pairs(cells)) {
+  if (line && qn_cells_sheets(cells, line)) {
     return;
   }
   if (n > MANY) {
@@ -373,15 +373,15 @@ static void list(qn_cells *cells, int on_line) {
   }
 }
 
-int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user) {
+int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, const qn_int *line, int (*emit)(void *user, const int8_t *signs), void *user) {
   qn_cells cells = {.ctx = ctx, .n = n, .germs = germs, .emit = emit, .user = user, .unit = unit_of(n, germs)};
-  if (qn_cells_fan(ctx, n, germs, on_line, emit, user) || ctx->failed != QUOIN_OK) {
+  if (qn_cells_fan(ctx, n, germs, line, emit, user) || ctx->failed != QUOIN_OK) {
     (void)qn_ctx_spend(ctx, n * (size_t)(cells.unit < 4096 ? cells.unit : 4096), QN_EFFORT_CELL * QN_WORK_FAN);
     return ctx->failed == QUOIN_OK;
   }
-  list(&cells, on_line);
+  list(&cells, line);
   (void)qn_ctx_spend(ctx, cells.work < QN_CELLS_WORK ? (size_t)cells.work : QN_CELLS_WORK, QN_EFFORT_CELL); /* what was too much is not done */
-  if (on_line && cells.work > QN_CELLS_WORK && ctx->failed == QUOIN_OK) {
+  if (line && cells.work > QN_CELLS_WORK && ctx->failed == QUOIN_OK) {
     ctx->failed = QUOIN_E_LIMIT; /* a point may be undecided, a stretch may not */
   }
   return !cells.gave_up;

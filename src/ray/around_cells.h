@@ -65,17 +65,19 @@ enum { QN_WORK_PARALLEL = 4, QN_WORK_ORDER = 8, QN_WORK_DEFINITE = 32, QN_WORK_R
 
 /* Calls emit for every cell next to P, some more than once. Where second-order forms do not tell whether a combination is
    realisable it is given too (docs/exactness.md lists where): what is given holds every cell, and equals the cells but in those places.
-   on_line: all surfaces are known to hold one line through P; more work than QN_CELLS_WORK is then QUOIN_E_LIMIT.
+   line: null, or the direction of a line through P that all surfaces are known to hold, P being none of its turns (turn.c): what is given is then exactly the cells, opaque surfaces
+   and apexes apart, and more work than QN_CELLS_WORK is QUOIN_E_LIMIT.
    0: given up (QN_CELLS_OPEN, QN_CELLS_WORK). ctx->failed tells of failure. Cost: about n^3 products in the worst case. */
-int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user);
+int qn_cells_list(qn_ctx *ctx, size_t n, qn_germ *germs, const qn_int *line, int (*emit)(void *user, const int8_t *signs), void *user);
 
-/* The same for three planes or more of which all but at most one hold one line, or, if all surfaces are known to hold one line (on_line), for three or more with
+/* The same for three planes or more of which all but at most one hold one line, or, if all surfaces are known to hold one line, for three or more with
    distinct tangent planes (around_fan.c): exactly the cells, in about n log n products. 0: the germs are not such, and none was given. Of germs it reads g, `plane`
    and `opaque`. */
-int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user);
+int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, const qn_int *line, int (*emit)(void *user, const int8_t *signs), void *user);
 
-/* The same along the edge of pairs of planes (around_pairs.c), for germs that have been sorted into smooth and singular ones. 0: the germs are not such (a stop aside), and none was given. */
-int qn_cells_pairs(qn_cells *cells);
+/* The same for surfaces that hold one line, of direction d, pairs of planes with that edge and surfaces that touch all along it too (around_sheets.c), for germs that have been
+   sorted into smooth and singular ones. 0: one is opaque, or has an apex at P (a stop aside), and none was given. */
+int qn_cells_sheets(qn_cells *cells, const qn_int d[3]);
 
 /* --- forms and vectors (around_form.c) --- */
 qn_int qn_settled(qn_xint a); /* the value, 0 when its sign is 0 by S2: nothing of a rounding is left to be read as a length */

@@ -96,13 +96,13 @@ static int smooth(const qn_germ *g) {
   return !g->opaque && (qn_x_sign(g->g[0]) != 0 || qn_x_sign(g->g[1]) != 0 || qn_x_sign(g->g[2]) != 0);
 }
 
-int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user) {
+int qn_cells_fan(qn_ctx *ctx, size_t n, const qn_germ *germs, const qn_int *line, int (*emit)(void *user, const int8_t *signs), void *user) {
   fan f = {.ctx = ctx, .germs = germs};
   size_t across = n, first = 0;
   int planes = 1;
   for (size_t i = 0; i < n; i++) {
     planes &= germs[i].plane;
-    if (!germs[i].plane && !(on_line && smooth(&germs[i]))) {
+    if (!germs[i].plane && !(line && smooth(&germs[i]))) {
       return 0;
     }
   }

@@ -186,7 +186,7 @@ static int weave_in_cells(weaving *w) {
   if (!germs_at(w, 0, germs)) {
     return 0;
   }
-  int listed = planes ? qn_cells_fan(&s->ctx, w->n, germs, 1, weave_in_cell, w) : qn_cells_list(&s->ctx, w->n, germs, 1, weave_in_cell, w);
+  int listed = planes ? qn_cells_fan(&s->ctx, w->n, germs, s->line->direction, weave_in_cell, w) : qn_cells_list(&s->ctx, w->n, germs, s->line->direction, weave_in_cell, w);
   return listed && s->ctx.failed == QUOIN_OK;
 }
 
@@ -320,7 +320,7 @@ static size_t last_change(qn_scratch *s, state *st, const qn_event *group, size_
       (void)weave_in_cell(&w, none);
       listed = 1;
     } else {
-      listed = qn_cells_list(&s->ctx, w.n, germs, 1, weave_in_cell, &w);
+      listed = qn_cells_list(&s->ctx, w.n, germs, s->line->direction, weave_in_cell, &w);
     }
     last = listed ? n - 1 : 0;
     while (last > 0 && side_seen(w.seen[st->count + last - 1]) == now) {

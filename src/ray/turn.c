@@ -14,7 +14,7 @@
 #include "ray/around_cells.h"
 #include "ray/scratch.h"
 
-/* Beyond so many surfaces the cells next to a point are given up as well (QN_CELLS_WORK). */
+/* With more the line is refused, but for planes alone; about so many planes through a point are given up as well (QN_CELLS_WORK). */
 enum { MOST_SURFACES = 160 };
 
 typedef struct sheet {
@@ -146,7 +146,7 @@ static void pair(finder *f, const sheet *i, const sheet *j) {
   }
 }
 
-/* The surfaces that hold the line, each once. 0: none is curved, or there are too many. */
+/* The surfaces that hold the line, each once. 0: none is curved, or there are too many of which one is. */
 static int gather(finder *f) {
   qn_scratch *s = f->s;
   for (size_t i = 0; i < s->event_count; i++) {
@@ -161,11 +161,15 @@ static int gather(finder *f) {
       if (seen) {
         continue;
       }
+      f->curved += s->scene->halves[h].kind != QN_PLANE;
       if (f->count == MOST_SURFACES) {
-        return 0;
+        if (f->curved != 0) {
+          qn_scratch_fail(s, QUOIN_E_LIMIT);
+          return 0;
+        }
+        continue; /* planes do not turn */
       }
       f->sheets[f->count++] = (sheet){.solved = solved, .leaf = e->leaf, .half = h};
-      f->curved += s->scene->halves[h].kind != QN_PLANE;
     }
   }
   return f->curved != 0;
@@ -206,7 +210,7 @@ int qn_find_turns(qn_scratch *s, qn_event **out, size_t *count) {
     return 0;
   }
   if (!gather(&f)) {
-    return 1;
+    return s->status == QUOIN_OK;
   }
   f.turn_room = f.curved + 2 * f.count * f.curved;
   f.turns = qn_arena_take(&s->ctx.arena, f.turn_room * sizeof *f.turns);

@@ -99,10 +99,10 @@ TIMED(exact, quoin_status, qn_around,
       (const quoin_scene *scene, qn_scratch *scratch, const qn_point *point, const qn_near_leaf *leaves, size_t leaf_count, const uint32_t *near_halves,
        size_t near_count, int how, quoin_side *out),
       (scene, scratch, point, leaves, leaf_count, near_halves, near_count, how, out))
-TIMED(exact, int, qn_cells_list, (qn_ctx *ctx, size_t n, qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user),
-      (ctx, n, germs, on_line, emit, user))
+TIMED(exact, int, qn_cells_list, (qn_ctx *ctx, size_t n, qn_germ *germs, const qn_int *line, int (*emit)(void *user, const int8_t *signs), void *user),
+      (ctx, n, germs, line, emit, user))
 TIMED(exact, int, qn_cells_fan,
-      (qn_ctx *ctx, size_t n, const qn_germ *germs, int on_line, int (*emit)(void *user, const int8_t *signs), void *user), (ctx, n, germs, on_line, emit, user))
+      (qn_ctx *ctx, size_t n, const qn_germ *germs, const qn_int *line, int (*emit)(void *user, const int8_t *signs), void *user), (ctx, n, germs, line, emit, user))
 
 TIMED(woven, quoin_status, qn_weave, (const quoin_scene *scene, qn_scratch *scratch, qn_line *line, const qn_range *range, unsigned want, qn_woven *out),
       (scene, scratch, line, range, want, out))

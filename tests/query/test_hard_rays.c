@@ -161,6 +161,7 @@ static const hard HARD[] = {
    {{0}}, {MINUS_INF, {"0", 1, "2"}}},
   {"21 i", "difference() { rotate([0,180,0]) difference() { quadric([-3,1,-3,-2,6,2,0,0,0,0]); halfspace(n=[-1,0,1],d=0); quadric([1,1,-1,0,0,0,0,1,0,0]); } quadric([-3,1,-3,-2,6,2,0,0,0,0]); }",
    {"1", "0", "1", "-1", "0", "-1"}, 0, 1, {{0}}, {MINUS_INF, T("0.5")}},
+  {"21 k", "quadric([1,1,-1,0,0,0,0,0,0,0]);", {"0", "0", "0", "1", "0", "1"}, 0, 1, {{0}}, {MINUS_INF, INF}}, /* from an apex */
   /* The same with a pair whose plane the cone touches all along the line, u = x - z = 0 against u (x + z) + y2 = 0: behind its apex the cone bends to the other side. */
   {"21 j", "difference() { rotate([0,180,0]) difference() { quadric([-3,1,-3,-2,6,2,0,0,0,0]); halfspace(n=[-1,1,1],d=0); quadric([1,1,-1,0,0,0,0,0,0,0]); } quadric([-3,0,-3,-2,6,2,0,0,0,0]); }",
    {"1", "0", "1", "-1", "0", "-1"}, 0, 1, {{0}}, {T("1"), INF}},
@@ -317,6 +318,35 @@ static void ranges(void **state) {
   ask_close(&a);
 }
 
+/* Surfaces that turn along one line, c xy - k y + m z >= 0: their sheets cross and cross again, and the fan they make with z <= 2y and y >= 0 is empty where one is steeper than 2. Up
+   to a limit of surfaces the place is found; beyond it the ray is refused, not answered. */
+static void many_on_a_line(void **state) {
+  (void)state;
+  static const char *const ray[6] = {"0", "0", "0", "1", "0", "0"};
+  for (int n = 100; n <= 400; n += 100) {
+    static char text[40000];
+    size_t end = (size_t)snprintf(text, sizeof text, "intersection() { halfspace(n=[0,-2,1],d=0); halfspace(n=[0,-1,0],d=0);");
+    double least = 1e300;
+    for (int i = 0; i < n; i++) {
+      end += (size_t)snprintf(text + end, sizeof text - end, "quadric([0,0,0,%d,0,0,0,%d,%d,0]);", i + 1, -(i * i + 1), -(i + 7));
+      const double here = (2.0 * (i + 7) + i * i + 1) / (i + 1); /* c t - k = 2 m */
+      least = here < least ? here : least;
+    }
+    snprintf(text + end, sizeof text - end, "}");
+    ask a;
+    ask_open(&a, text);
+    quoin_intervals got;
+    const quoin_status status = quoin_ray_intervals_text(a.scene, a.work, ray, NULL, NULL, QUOIN_WANT_BOUNDARY, &got);
+    assert_int_equal(status, n == 100 ? QUOIN_OK : QUOIN_E_LIMIT);
+    if (status == QUOIN_OK) {
+      assert_int_equal(got.count, 0);
+      assert_int_equal(got.boundary_count, 1);
+      assert_true(got.boundary[0].leave.t == least && least == 7.5);
+    }
+    ask_close(&a);
+  }
+}
+
 static void surfaces(void **state) {
   (void)state;
   ask a;
@@ -340,6 +370,6 @@ static void surfaces(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(catalogue), cmocka_unit_test(doubles), cmocka_unit_test(ranges), cmocka_unit_test(surfaces)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(catalogue), cmocka_unit_test(doubles), cmocka_unit_test(ranges), cmocka_unit_test(many_on_a_line), cmocka_unit_test(surfaces)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
