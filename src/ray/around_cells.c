@@ -335,11 +335,11 @@ static void list(qn_cells *cells, const qn_int *line) {
   cells->free = cells->order + n;
   memset(cells->signs, 0, 2 * n + 1);
   find_singular(cells);
-  if (line && qn_cells_sheets(cells, line)) {
-    return;
-  }
   if (n > MANY) {
     give_some(cells);
+  }
+  if (qn_cells_done(cells) || (line && qn_cells_sheets(cells, line))) {
+    return;
   }
   classify(cells);
   if (qn_cells_done(cells)) {

@@ -134,13 +134,17 @@ static void order_group(qn_cells *cells, const qn_int d[3], const qn_int v[3], i
     return;
   }
   touch(&t, &cells->germs[marks[curved].tag], d, v, half);
-  for (size_t i = 1; i < n && qn_cells_spend(cells, i, QN_WORK_ORDER); i++) {
+  const qn_mark memory = qn_arena_mark(&cells->ctx->arena);
+  for (size_t i = 1; i < n && qn_cells_spend(cells, 16, QN_WORK_ORDER); i++) { /* by halving: places are cheap to move */
     const qn_walk_mark moved = marks[i];
-    size_t k = i;
-    for (; k > 0 && cmp_heights(&t, &marks[k - 1], &moved) > 0; k--) {
-      marks[k] = marks[k - 1];
+    size_t low = 0, high = i;
+    while (low < high) {
+      const size_t middle = (low + high) / 2;
+      cmp_heights(&t, &marks[middle], &moved) > 0 ? (high = middle) : (low = middle + 1);
     }
-    marks[k] = moved;
+    memmove(marks + low + 1, marks + low, (i - low) * sizeof *marks);
+    marks[low] = moved;
+    qn_arena_release(&cells->ctx->arena, memory);
   }
   for (size_t i = 1; i < n; i++) {
     joined[i] = cmp_heights(&t, &marks[i - 1], &marks[i]) == 0;

@@ -14,7 +14,9 @@
 #include "ray/around_cells.h"
 #include "ray/scratch.h"
 
-/* With more the line is refused, but for planes alone; about so many planes through a point are given up as well (QN_CELLS_WORK). */
+#include <string.h>
+
+/* With more of which one changes along the line it is refused; about so many planes through a point are given up as well (QN_CELLS_WORK). */
 enum { MOST_SURFACES = 160 };
 
 typedef struct sheet {
@@ -146,33 +148,28 @@ static void pair(finder *f, const sheet *i, const sheet *j) {
   }
 }
 
-/* The surfaces that hold the line, each once. 0: none is curved, or there are too many of which one is. */
+/* The surfaces that hold the line, each once. 0: memory was refused. */
 static int gather(finder *f) {
   qn_scratch *s = f->s;
+  uint8_t *seen = qn_arena_take(&s->ctx.arena, s->solved_count + 1);
+  f->sheets = qn_arena_take(&s->ctx.arena, (s->solved_count + 1) * sizeof *f->sheets);
+  if (!seen || !f->sheets) {
+    return 0;
+  }
+  memset(seen, 0, s->solved_count + 1);
   for (size_t i = 0; i < s->event_count; i++) {
     const qn_event *e = &s->events[i];
     const qn_leaf *leaf = &s->scene->leaves[e->leaf];
     for (uint32_t h = leaf->half0; e->vague && e->enter && h < leaf->half0 + leaf->halves; h++) {
-      uint32_t solved = s->memo[s->scene->halves[h].surface].solved;
-      int seen = s->solved[solved].sign != 0 || s->scene->halves[h].kind == QN_SUPER_BODY;
-      for (size_t k = 0; k < f->count && !seen; k++) {
-        seen = f->sheets[k].solved == solved;
+      const uint32_t solved = s->memo[s->scene->halves[h].surface].solved;
+      if (s->solved[solved].sign == 0 && s->scene->halves[h].kind != QN_SUPER_BODY && !seen[solved]) {
+        seen[solved] = 1;
+        f->sheets[f->count++] = (sheet){.solved = solved, .leaf = e->leaf, .half = h};
+        f->curved += s->scene->halves[h].kind != QN_PLANE;
       }
-      if (seen) {
-        continue;
-      }
-      f->curved += s->scene->halves[h].kind != QN_PLANE;
-      if (f->count == MOST_SURFACES) {
-        if (f->curved != 0) {
-          qn_scratch_fail(s, QUOIN_E_LIMIT);
-          return 0;
-        }
-        continue; /* planes do not turn */
-      }
-      f->sheets[f->count++] = (sheet){.solved = solved, .leaf = e->leaf, .half = h};
     }
   }
-  return f->curved != 0;
+  return 1;
 }
 
 static void make_germs(finder *f) {
@@ -201,23 +198,39 @@ static void make_germs(finder *f) {
   }
 }
 
+/* How many surfaces change along the line: of two that do not, nothing can turn. */
+static size_t count_changing(const finder *f) {
+  size_t n = 0;
+  for (size_t i = 0; i < f->count; i++) {
+    n += !is_zero(f->sheets[i].g1);
+  }
+  return n;
+}
+
 int qn_find_turns(qn_scratch *s, qn_event **out, size_t *count) {
   finder f = {.s = s, .ctx = &s->ctx};
   *out = NULL;
   *count = 0;
-  f.sheets = qn_arena_take(&s->ctx.arena, MOST_SURFACES * sizeof *f.sheets);
-  if (!f.sheets) {
+  if (!gather(&f)) {
     return 0;
   }
-  if (!gather(&f)) {
-    return s->status == QUOIN_OK;
+  if (f.curved == 0) {
+    return 1;
+  }
+  (void)qn_scratch_spend(s, f.count, QN_EFFORT_CELL * QN_WORK_DEFINITE);
+  make_germs(&f);
+  if (s->ctx.failed || count_changing(&f) == 0) {
+    return 1;
+  }
+  if (f.count > MOST_SURFACES) {
+    qn_scratch_fail(s, QUOIN_E_LIMIT);
+    return 1;
   }
   f.turn_room = f.curved + 2 * f.count * f.curved;
   f.turns = qn_arena_take(&s->ctx.arena, f.turn_room * sizeof *f.turns);
   if (!f.turns) {
     return 0;
   }
-  make_germs(&f);
   (void)qn_scratch_spend(s, f.count * f.curved, QN_EFFORT_CELL * QN_WORK_DEFINITE);
   for (size_t i = 0; i < f.count && !s->ctx.failed; i++) {
     if (!f.sheets[i].germ.plane) {
