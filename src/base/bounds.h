@@ -80,6 +80,7 @@
 #define QN_SUPER_LOW 0x1p-104
 #define QN_SUPER_CRUDE 0x1p-6
 #define QN_SUPER_GAP 0x1p-47
+#define QN_SUPER_FAR 0x1p+6 /* sizes: a line whose t's on the solid are beyond that is begun anew there */
 
 /* One step outward: x + QN_STEP |x| + 2^-1074 is at least the next double above x. */
 #define QN_STEP 0x1p-52

@@ -98,7 +98,7 @@ int qn_superquadric_sign(qn_ctx *ctx, qn_num e, qn_num n, const qn_num X[3]);
 /* Roots of the superquadric along a line, X(t) = O + t D in its frame (super_frame.h): disjoint enclosures [lo, hi] in increasing order into roots[] (at most
    max), isolated by interval arithmetic with bisection and refined by safeguarded Newton to the last bits; a pair closer than
    2^-40 of the solid's size may be missed (S10). The value is positive before the first and changes sign at each: at both ends of
-   an enclosure the sign is certain for the exact line. frame: null where it is to be made from the exact line, which else is asked for only where frame leaves
+   an enclosure the sign is certain for the exact line, but where t is beyond QN_SUPER_FAR sizes: both ends are then the double nearest to the root, and neighbours may be equal. frame: null where it is to be made from the exact line, which else is asked for only where frame leaves
    something open; 0 roots when it was refused. Returns the count. Cost: 0.4 to 1.5 us; very
    near a tangent, and with exponents under 2^-9 (but e = 0) or over 8, 10 us to a few ms. */
 size_t qn_superquadric_roots(const qn_super_frame *frame, qn_super_ask ask, void *user, double (*roots)[2], size_t max);

@@ -34,5 +34,8 @@ typedef int (*qn_super_ask)(void *user, qn_super_exact *out);
 /* From doubles. 0: a number is out of the range for which the errors were derived (docs/bounds.md, QN_SUPER_FRAME). Cost: 30 to 60 ns. */
 int qn_super_frame_make(const qn_super_rows *rows, const double o[3], const double d[3], qn_super_frame *out);
 void qn_super_frame_from_exact(const qn_super_exact *line, qn_super_frame *out);
+/* The same line begun at t: X(t + s) = O' + s D. The first in doubles with their error (docs/bounds.md, QN_SUPER_FRAME), infinite out of their range. */
+void qn_super_frame_begin(const qn_super_frame *frame, double t, qn_super_frame *out);
+void qn_super_exact_begin(qn_super_exact *line, double t);
 
 #endif

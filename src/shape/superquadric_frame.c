@@ -80,6 +80,24 @@ int qn_super_frame_make(const qn_super_rows *rows, const double o[3], const doub
   return fit;
 }
 
+void qn_super_frame_begin(const qn_super_frame *frame, double t, qn_super_frame *out) {
+  *out = *frame;
+  for (int i = 0; i < 3; i++) {
+    const double *O = frame->O[i], *D = frame->D[i];
+    const qn_dd product = qn_dd_two_prod(D[0], t), sum = qn_dd_two_sum(O[0], product.hi);
+    const double second = D[1] * t, rests = fabs(sum.lo) + fabs(product.lo) + fabs(second) + fabs(O[1]);
+    const int fit = finish(sum.hi, sum.lo + (product.lo + (second + O[1])), rests, fabs(O[0]) + fabs(product.hi), out->O[i], &out->O_off[i]);
+    out->O_off[i] = fit ? out->O_off[i] + (frame->O_off[i] + 1.5 * fabs(t) * frame->D_off[i]) : INFINITY;
+  }
+}
+
+void qn_super_exact_begin(qn_super_exact *line, double t) {
+  const qn_num from = qn_num_from_double(line->ctx, t);
+  for (int i = 0; i < 3; i++) {
+    line->O[i] = qn_num_add(line->ctx, line->O[i], qn_num_mul(line->ctx, line->D[i], from));
+  }
+}
+
 /* A number as a pair, and what it leaves: 2^-106 of it, and what underflows. */
 static double pair_of(qn_ctx *ctx, qn_num a, double out[2]) {
   qn_num_to_dd(ctx, a, &out[0], &out[1]);

@@ -2,7 +2,7 @@
    searches in doubles with error bounds, which may say that they cannot tell, then the careful one, with the exact line.
 
    First the line is clipped: the solid lies in the box |X_i| <= 1, and outside the stretch [a, b] of the line in a box a little larger
-   f > 1. With an exponent beyond 2 the solid lies in its hull, that of the exponent 2, and the stretch is narrowed to
+   f > 1. Where that stretch is far from t = 0 the line is begun anew there, and the roots are moved at the end. With an exponent beyond 2 the solid lies in its hull, that of the exponent 2, and the stretch is narrowed to
    that. */
 #include "shape/interval.h"
 #include "shape/prim.h"
@@ -61,9 +61,15 @@ static qn_super_answer quick(const qn_super_frame *frame, const qn_super_line *c
   return qn_super_pieces(c, *a, *b, roots, max, count);
 }
 
+/* [a, b] lies so far from t = 0 that t's last bits are too wide to search by. */
+static int is_far(const qn_super_frame *f, double a, double b) {
+  const double most = fmax(fabs(f->D[0][0]), fmax(fabs(f->D[1][0]), fabs(f->D[2][0])));
+  return isfinite(a) && isfinite(b) && fmax(fabs(a), fabs(b)) * most > 2 * QN_SUPER_FAR;
+}
+
 size_t qn_superquadric_roots(const qn_super_frame *frame, qn_super_ask ask, void *user, double (*roots)[2], size_t max) {
   qn_super_exact exact;
-  qn_super_frame made;
+  qn_super_frame made, begun;
   int asked = frame == NULL;
   if (asked) {
     if (!ask(user, &exact)) {
@@ -72,18 +78,45 @@ size_t qn_superquadric_roots(const qn_super_frame *frame, qn_super_ask ask, void
     qn_super_frame_from_exact(&exact, &made);
     frame = &made;
   }
-  double a, b;
+  double a, b, begin = 0;
   if (!qn_super_clip(frame, &a, &b)) {
     return 0;
   }
-  qn_super_line c;
-  size_t count = 0;
-  if (isfinite(a) && isfinite(b) && qn_super_line_make(frame, a, b, &c)) {
-    switch (quick(frame, &c, &a, &b, roots, max, &count)) {
-    case QN_SUPER_NONE: return 0;
-    case QN_SUPER_FOUND: return count;
-    case QN_SUPER_UNSURE: break;
+  if (is_far(frame, a, b)) {
+    begin = a + 0.5 * (b - a);
+    if (asked) {
+      qn_super_exact_begin(&exact, begin);
+      qn_super_frame_from_exact(&exact, &begun);
+    } else {
+      qn_super_frame_begin(frame, begin, &begun);
+    }
+    frame = &begun;
+    if (!qn_super_clip(frame, &a, &b)) {
+      return 0;
     }
   }
-  return asked || ask(user, &exact) ? qn_super_careful(&exact, roots, max) : 0;
+  qn_super_line c;
+  qn_super_answer answer = QN_SUPER_UNSURE;
+  size_t count = 0;
+  if (isfinite(a) && isfinite(b) && qn_super_line_make(frame, a, b, &c)) {
+    answer = quick(frame, &c, &a, &b, roots, max, &count);
+  }
+  if (answer == QN_SUPER_NONE) {
+    return 0;
+  }
+  if (answer == QN_SUPER_UNSURE) {
+    if (!asked) {
+      if (!ask(user, &exact)) {
+        return 0;
+      }
+      if (begin != 0) {
+        qn_super_exact_begin(&exact, begin);
+      }
+    }
+    count = qn_super_careful(&exact, roots, max);
+  }
+  for (size_t i = 0; begin != 0 && i < count; i++) {
+    roots[i][0] = roots[i][1] = begin + (roots[i][0] + 0.5 * (roots[i][1] - roots[i][0]));
+  }
+  return count;
 }

@@ -97,7 +97,10 @@ static int truth(const solid *s, const double o[3], int axis, double d, mpfr_t e
   return hit;
 }
 
-/* Asks; 1 when the truth is a stretch that S10 promises, 0 when it is none, -1 when it is narrower. */
+/* The last bit of t. */
+static double last_bit(double t) { return nextafter(fabs(t), INFINITY) - fabs(t); }
+
+/* Asks; 1 when the truth is a stretch that S10 promises, 0 when it is none, -1 when it is narrower, or than t's last bit. */
 static int judged(const ask *a, const solid *s, const double o[3], int axis, double d) {
   mpfr_t ends[2], off;
   mpfr_inits2(BITS, ends[0], ends[1], off, (mpfr_ptr)NULL);
@@ -108,8 +111,9 @@ static int judged(const ask *a, const solid *s, const double o[3], int axis, dou
   quoin_intervals found;
   assert_int_equal(quoin_ray_intervals(a->scene, a->work, &ray, 0, &found), QUOIN_OK);
   if (hit) {
+    const double last = fmax(last_bit(mpfr_get_d(ends[0], MPFR_RNDN)), last_bit(mpfr_get_d(ends[1], MPFR_RNDN)));
     mpfr_sub(off, ends[1], ends[0], MPFR_RNDN);
-    hit = mpfr_cmp_d(off, size * 0x1p-40) > 0 ? 1 : -1;
+    hit = mpfr_cmp_d(off, fmax(size * 0x1p-40, last)) > 0 ? 1 : -1;
   }
   if (hit == 1) {
     assert_int_equal(found.count, 1);
@@ -119,7 +123,7 @@ static int judged(const ask *a, const solid *s, const double o[3], int axis, dou
   for (size_t i = 0; hit == 1 && i < 2; i++) {
     double t = i ? found.inside[0].leave.t : found.inside[0].enter.t;
     mpfr_sub_d(off, ends[i], t, MPFR_RNDN);
-    assert_true(fabs(mpfr_get_d(off, MPFR_RNDA)) <= 0x1p-44 * size + 0x1p-51 * fabs(t));
+    assert_true(fabs(mpfr_get_d(off, MPFR_RNDA)) <= 0x1p-44 * size + (fabs(t) > 0x1p10 * size ? 0.5 : 8) * last_bit(t)); /* from afar: rounded once */
   }
   mpfr_clears(ends[0], ends[1], off, (mpfr_ptr)NULL);
   return hit;
@@ -235,8 +239,45 @@ static void poles(void **state) {
   assert_true(census[0] > share_min(50) && census[1] > share_min(500) && census[2] > share_min(200));
 }
 
+/* From so far away that the solid is a few of t's last bits: to 2^52 of its sizes. */
+static void from_afar(void **state) {
+  (void)state;
+  static const char *const radii[] = {"0.2", "1.3", "7", "1", "5", "2.32"}, *const exponents[] = {"0.5", "3", "0.3", "1", "2", "0.7", "1.9", "2.5", "6", "8", "0.001"};
+  uint64_t seed = 7;
+  int census[3] = {0, 0, 0}, few = 0;
+  for (int round = 0; round < share_of(3000); round++) {
+    uint64_t x[12];
+    for (int i = 0; i < 12; i++) {
+      seed = seed * 6364136223846793005u + 1442695040888963407u;
+      x[i] = seed >> 40;
+    }
+    solid s = {.centre = {"0", "-0.5", "0.3"}, .e = exponents[x[0] % 11], .n = exponents[x[1] % 11]};
+    if (x[0] % 11 == 3 && x[1] % 11 == 3) {
+      continue; /* an ellipsoid: exact */
+    }
+    double o[3], radius[3];
+    for (size_t i = 0; i < 3; i++) {
+      s.radius[i] = radii[x[2 + i] % 6], radius[i] = atof(s.radius[i]);
+      o[i] = atof(s.centre[i]) + (x[5 + i] & 1 ? 0 : radius[i] * ldexp((double)(x[5 + i] >> 1) - 0x1p22, -22 - (int)(x[8] % 8)));
+    }
+    const int axis = (int)(x[9] % 3), back = 3 + (int)(x[10] % 50);
+    if (x[11] & 1) { /* near a pole's plane */
+      const int plane = (axis + 1 + (x[11] & 2 ? 1 : 0)) % 3;
+      o[plane] = atof(s.centre[plane]) + radius[plane] * (1 - ldexp(1, -(int)(x[11] >> 2 & 15) - 2));
+    }
+    o[axis] -= ldexp(1, back) * radius[axis];
+    ask a;
+    open_solid(&a, &s);
+    const int hit = judged(&a, &s, o, axis, (x[11] & 64 ? 0.5125 : -3) * radius[axis]);
+    census[hit + 1]++;
+    few += hit == 1 && back > 46;
+    ask_close(&a);
+  }
+  assert_true(census[0] > share_min(20) && census[1] > share_min(300) && census[2] > share_min(1000) && few > share_min(80));
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(gap), cmocka_unit_test(poles)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(gap), cmocka_unit_test(poles), cmocka_unit_test(from_afar)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   mpfr_free_cache();
   return failed;

@@ -391,14 +391,28 @@ static void line_is_within_its_error(void **state) {
   mpfr_free_cache();
 }
 
+/* The pairs are within their errors of the exact line; counts those without an error. Gives the largest share of an error that there is. */
+static double checked_frame(bench *b, const qn_super_exact *line, const qn_super_frame *frame, int *exact) {
+  double worst = 0;
+  for (int k = 0; k < 6; k++) {
+    const double *pair = k < 3 ? frame->O[k] : frame->D[k - 3];
+    double off = k < 3 ? frame->O_off[k] : frame->D_off[k - 3];
+    qn_num rest = SUB(SUB(k < 3 ? line->O[k] : line->D[k - 3], qn_num_from_double(&b->ctx, pair[0])), qn_num_from_double(&b->ctx, pair[1]));
+    assert_true(fabs(qn_num_to_double(rest)) <= off);
+    worst = off > 0 ? fmax(worst, fabs(qn_num_to_double(rest)) / off) : worst;
+    *exact += off == 0;
+  }
+  return worst;
+}
+
 /* QN_SUPER_FRAME: rows and lines of random exact numbers, near the pivot and far from it. QN_SUPER_LOW and QN_SUPER_CRUDE: f along such a line, both tiers,
    near the coordinate planes too, against the exact line in 300 bits. */
 static void frames_are_within_their_error(void **state) {
   bench *b = *state;
   mpfr_t truth, difference, Y[3];
   mpfr_inits2(300, truth, difference, Y[0], Y[1], Y[2], (mpfr_ptr)NULL);
-  double worst[2] = {0, 0};
-  int exact = 0, close = 0, given_up = 0, crude = 0;
+  double worst[3] = {0, 0, 0};
+  int exact = 0, exact_anew = 0, close = 0, given_up = 0, crude = 0;
   for (int round = 0; round < share_of(6000); round++) {
     qn_mark mark = qn_arena_mark(&b->ctx.arena);
     qn_super_rows rows;
@@ -436,14 +450,22 @@ static void frames_are_within_their_error(void **state) {
     qn_num_to_dd(&b->ctx, line.e, &rows.e[0], &rows.e[1]);
     qn_num_to_dd(&b->ctx, line.n, &rows.n[0], &rows.n[1]);
     if (qn_super_frame_make(&rows, x, v, &frame)) {
-      for (int k = 0; k < 6; k++) {
-        const double *pair = k < 3 ? frame.O[k] : frame.D[k - 3];
-        double off = k < 3 ? frame.O_off[k] : frame.D_off[k - 3];
-        qn_num rest = SUB(SUB(k < 3 ? line.O[k] : line.D[k - 3], qn_num_from_double(&b->ctx, pair[0])), qn_num_from_double(&b->ctx, pair[1]));
-        assert_true(fabs(qn_num_to_double(rest)) <= off);
-        worst[0] = off > 0 ? fmax(worst[0], fabs(qn_num_to_double(rest)) / off) : worst[0];
-        exact += off == 0;
+      worst[0] = fmax(worst[0], checked_frame(b, &line, &frame, &exact));
+      /* begun anew far away, at times where a coordinate is next to 0 */
+      const int i = below(b, 3);
+      const double far_away = below(b, 2) && frame.D[i][0] != 0 ? -frame.O[i][0] / frame.D[i][0] : ldexp(real(b, -1, 1), below(b, 60));
+      qn_super_exact anew = line;
+      if (below(b, 2)) { /* pairs whose own errors count: the line is as far off as they allow */
+        for (int k = 0; k < 3; k++) {
+          const double o_off = ldexp(1, -100 + below(b, 40)), d_off = ldexp(1, -100 + below(b, 40));
+          anew.O[k] = ADD(line.O[k], qn_num_from_double(&b->ctx, o_off));
+          anew.D[k] = ADD(line.D[k], qn_num_from_double(&b->ctx, far_away < 0 ? -d_off : d_off));
+          frame.O_off[k] += o_off, frame.D_off[k] += d_off;
+        }
       }
+      qn_super_exact_begin(&anew, far_away);
+      qn_super_frame_begin(&frame, far_away, &near);
+      worst[2] = fmax(worst[2], checked_frame(b, &anew, &near, &exact_anew));
     }
     /* the line moved so that at t it is next to the surface, and at times a coordinate of it next to 0; then pairs with a greater error than they have */
     double X[3], error;
@@ -488,19 +510,46 @@ static void frames_are_within_their_error(void **state) {
     qn_arena_release(&b->ctx.arena, mark);
   }
   assert_true(exact > share_min(2000) && close > share_min(500) && given_up > share_min(50) && crude > share_min(20));
+  assert_true(exact_anew > share_min(1000) && worst[2] <= 1 && worst[2] > 0.6);
   assert_true(worst[0] < 1 && (!share_whole() || (worst[0] > 0.005 && worst[1] > 0.1)));
   mpfr_clears(truth, difference, Y[0], Y[1], Y[2], (mpfr_ptr)NULL);
   mpfr_free_cache();
 }
 
+/* A line begun anew where first doubles add up exactly and only second ones are rounded. */
+static void begun_from_second_doubles(void **state) {
+  bench *b = *state;
+  qn_super_exact line = {.ctx = &b->ctx, .e = QN_NUM_ONE, .n = QN_NUM_ONE};
+  for (int i = 0; i < 3; i++) {
+    line.O[i] = ADD(qn_num_from_double(&b->ctx, 3 + i), qn_num_from_double(&b->ctx, ldexp(1 + 0x1p-50, -60 - i)));
+    line.D[i] = ADD(qn_num_from_double(&b->ctx, 1), qn_num_from_double(&b->ctx, ldexp(1 + 0x1p-52, -55)));
+  }
+  qn_super_frame frame, begun;
+  int exact = 0;
+  qn_super_frame_from_exact(&line, &frame);
+  for (int i = 0; i < 3; i++) {
+    frame.O_off[i] = frame.D_off[i] = 0; /* the pairs are the line */
+  }
+  assert_true(checked_frame(b, &line, &frame, &exact) == 0 && exact == 6);
+  qn_super_frame_begin(&frame, 8, &begun);
+  qn_super_exact_begin(&line, 8);
+  checked_frame(b, &line, &begun, &exact);
+}
+
 enum { MAX = 64 };
 
-/* Checks the enclosures' order and the certain sign at their ends; gives the count. */
+/* Checks the enclosures' order and the certain sign at their ends; gives the count. Roots from afar are places: their enclosures are made of what the exact root may be off by (S10). */
 static size_t checked_roots(bench *b, double e, double n, const double O[3], const double D[3], double roots[MAX][2]) {
   size_t count = all_roots(b, e, n, O, D, roots, MAX);
+  const double longest = 2 / fmax(fabs(D[0]), fmax(fabs(D[1]), fabs(D[2])));
   assert_true(count < MAX && count % 2 == 0);
   for (size_t i = 0; i < count; i++) {
     int before = i % 2 ? -1 : 1;
+    if (roots[i][0] == roots[i][1]) {
+      double t = roots[i][0], off = QN_SUPER_FINE * longest + 0.5 * (nextafter(fabs(t), INFINITY) - fabs(t));
+      assert_true(fabs(t) > 0.9 * QN_SUPER_FAR * longest);
+      roots[i][0] = nextafter(t - off, -INFINITY), roots[i][1] = nextafter(t + off, INFINITY);
+    }
     assert_true(roots[i][0] < roots[i][1]);
     assert_true(i == 0 || roots[i - 1][1] <= roots[i][0]);
     assert_int_equal(exact_sign_at(b, e, n, O, D, roots[i][0]), before);
@@ -755,6 +804,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(signs, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(line_is_within_its_error, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(frames_are_within_their_error, setup_bench, teardown_bench),
+    cmocka_unit_test_setup_teardown(begun_from_second_doubles, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(known_roots, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(roots_bracket_the_sign, setup_bench, teardown_bench),
     cmocka_unit_test_setup_teardown(grazing, setup_bench, teardown_bench),

@@ -3,8 +3,8 @@
 // Legend: X_i = (R^T ((o + t d) - c))_i / r_i, p = 2/e, q = 2/n, f = (|X0|^p + |X1|^p)^(e/n) + |X2|^q; size = 2 / max |D_i|, the longest stretch that a line with direction D has in
 // the box |X_i| <= 1. Between coordinate planes f has a derivative; a piece of the line is done when f - 1 has a sign on it (plainly, or by the mean value theorem), when f' has one, or when
 // it is shorter than 2^-50 size: all in intervals, rounded outward. So the roots are known to 2^-60 size, but for pairs closer than 2^-50.
-// Judged: each end that quoin says is a root of the right direction, within 2^-44 size and 16 last bits of t; each root that has no end is one of a pair of neighbours that are no wider apart than
-// 2^-40 size, or than t's own last bits. A point has the sign of f - 1 where that is known to 2^-200.
+// Judged: each end that quoin says is a root of the right direction, within 2^-44 size and 8 last bits of t, or, where t is beyond 128 sizes, half a last bit; each root that has no end is one of a
+// pair of neighbours that are no wider apart than 2^-40 size, or than t's last bit. A point has the sign of f - 1 where that is known to 2^-200.
 //
 // Usage: stress_super [--seed S] [--seconds T | --models N] [--again MODELSEED]
 #include "interval.hpp"
@@ -12,6 +12,7 @@
 
 #include "quoin/quoin.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -225,13 +226,14 @@ void judge_ray(const Solid &s, const Asked &a, const double v[6], bool as_text, 
     return;
   }
   const double size = l.size.to_double();
+  auto last_bit = [](double x) { return std::nextafter(std::fabs(x), INFINITY) - std::fabs(x); };
   size_t k = 0;
   for (size_t i = 0; i <= ends.size(); i++) {
-    double far = i < ends.size() ? std::fabs(ends[i]) : roots.empty() ? 0 : roots.back().t.abs().to_double(), close = 0x1p-44 * size + 16 * 0x1p-52 * far;
+    double far = i < ends.size() ? std::fabs(ends[i]) : roots.empty() ? 0 : roots.back().t.abs().to_double(), close = 0x1p-44 * size + (far > 128 * size ? 0.5 : 8) * last_bit(far);
     // Roots before this end must be pairs that need not be found.
     while (k < roots.size() && (i == ends.size() || roots[k].way != (i % 2 ? 1 : -1) || close < (roots[k].t - Real(ends[i])).abs().to_double())) {
       double wide = k + 1 < roots.size() ? (roots[k + 1].t - roots[k].t).to_double() : INFINITY;
-      if (wide > 0x1p-40 * size + 2 * 0x1p-52 * roots[k].t.abs().to_double()) return wrong(t, seed, s, v, ends, &roots, "a root without its end", aim);
+      if (wide > std::max(0x1p-40 * size, last_bit(roots[k].t.to_double()))) return wrong(t, seed, s, v, ends, &roots, "a root without its end", aim);
       t.lost++;
       k += 2;
     }
@@ -343,7 +345,7 @@ void one_model(uint64_t seed, Totals &t) {
     default: break;
     }
     if (D[0] == 0 && D[1] == 0 && D[2] == 0) D[axis == 0] = 1;
-    double back = r.chance(20) ? 0 : r.chance(85) ? r.real(0, 10) : std::ldexp(1, r.range(4, 40)), o[3], d[3];
+    double back = r.chance(20) ? 0 : r.chance(85) ? r.real(0, 10) : std::ldexp(1, r.range(4, 52)), o[3], d[3];
     for (int i = 0; i < 3; i++) d[i] = s.world(D, i);
     for (int i = 0; i < 3; i++) {
       o[i] = s.C[i].to_double() + s.world(X, i) - back * d[i];
