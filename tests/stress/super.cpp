@@ -233,7 +233,7 @@ void judge_ray(const Solid &s, const Asked &a, const double v[6], bool as_text, 
     // Roots before this end must be pairs that need not be found.
     while (k < roots.size() && (i == ends.size() || roots[k].way != (i % 2 ? 1 : -1) || close < (roots[k].t - Real(ends[i])).abs().to_double())) {
       double wide = k + 1 < roots.size() ? (roots[k + 1].t - roots[k].t).to_double() : INFINITY;
-      if (wide > std::max(0x1p-40 * size, last_bit(roots[k].t.to_double()))) return wrong(t, seed, s, v, ends, &roots, "a root without its end", aim);
+      if (wide > std::max(0x1p-40 * size, std::max(last_bit(roots[k].t.to_double()), k + 1 < roots.size() ? last_bit(roots[k + 1].t.to_double()) : 0))) return wrong(t, seed, s, v, ends, &roots, "a root without its end", aim);
       t.lost++;
       k += 2;
     }
@@ -353,7 +353,7 @@ void one_model(uint64_t seed, Totals &t) {
     }
     if (aim == Pole && !s.turned && r.chance(60)) // some last bits from it
       for (int m = r.below(4); m > 0; m--) v[axis] = std::nextafter(v[axis], r.chance(50) ? INFINITY : -INFINITY);
-    if (v[3] == 0 && v[4] == 0 && v[5] == 0) continue;
+    if ((v[3] == 0 && v[4] == 0 && v[5] == 0) || !std::isfinite(v[0] + v[1] + v[2] + v[3] + v[4] + v[5])) continue; // a gradient may be beyond doubles
     judge_ray(s, a, v, r.chance(15), aim, seed, t);
     if (r.chance(40)) {
       to_surface(1 + depth * std::ldexp(1, -r.range(0, 2)));
