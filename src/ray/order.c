@@ -35,9 +35,10 @@ void qn_order_candidates(qn_scratch *s) {
 
 /* --- ends ----------------------------------------------------------------------------------------------------------- */
 
-/* Whether x comes before y in a group (by leaf) or along the line (by place). */
+/* Whether x comes before y in a group (by leaf) or along the line (by place). Rounded places tie by a rule that is not transitive (S2): in this order those that do are neighbours either way along
+   the line. */
 static int before(qn_scratch *s, const qn_event *x, const qn_event *y, int by_leaf) {
-  return by_leaf ? x->leaf < y->leaf : qn_bound_cmp(s, &x->at, &y->at) < 0;
+  return by_leaf ? x->leaf < y->leaf : qn_bound_order(s, &x->at, &y->at) < 0;
 }
 
 /* Stable: insertion in runs, then merging. */

@@ -45,6 +45,19 @@ int qn_bound_cmp_slow(qn_scratch *s, const qn_bound *a, const qn_bound *b) {
   return qn_root_cmp(&s->ctx, p, q);
 }
 
+int qn_bound_order(qn_scratch *s, const qn_bound *a, const qn_bound *b) {
+  const int order = qn_bound_cmp(s, a, b);
+  if (order || a->solved == b->solved || a->solved == QN_NO_SOLVED || b->solved == QN_NO_SOLVED) {
+    return order;
+  }
+  const qn_solved *x = &s->solved[a->solved], *y = &s->solved[b->solved];
+  if (x->kind == QN_SOLVED_EXACTLY && y->kind == QN_SOLVED_EXACTLY) {
+    return 0;
+  }
+  const qn_root p = qn_bound_root(s, a), q = qn_bound_root(s, b);
+  return p.q && q.q && !s->ctx.failed ? qn_root_cmp_stored(&s->ctx, p, q) : 0;
+}
+
 void qn_bound_between(qn_scratch *s, const qn_bound *a, const qn_bound *b, qn_int *num, qn_int *den) {
   qn_root none = {NULL, 0};
   qn_root x = a->solved == QN_NO_SOLVED ? none : qn_bound_root(s, a), y = b->solved == QN_NO_SOLVED ? none : qn_bound_root(s, b);

@@ -146,6 +146,8 @@ QN_INLINE int qn_bound_cmp(qn_scratch *s, const qn_bound *a, const qn_bound *b) 
   }
   return qn_bound_cmp_slow(s, a, b);
 }
+/* The same order with ties of rounded places broken, so that it is transitive (qn_root_cmp_stored). */
+int qn_bound_order(qn_scratch *s, const qn_bound *a, const qn_bound *b);
 /* The root that a finite bound is; a rational as the root of a linear one. */
 qn_root qn_bound_root(qn_scratch *s, const qn_bound *b);
 /* A rational strictly between two bounds a < b, either of which may be infinite. */

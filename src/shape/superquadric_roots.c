@@ -83,7 +83,7 @@ size_t qn_superquadric_roots(const qn_super_frame *frame, qn_super_ask ask, void
     return 0;
   }
   if (is_far(frame, a, b)) {
-    begin = a + 0.5 * (b - a);
+    begin = 0.5 * a + 0.5 * b;
     if (asked) {
       qn_super_exact_begin(&exact, begin);
       qn_super_frame_from_exact(&exact, &begun);

@@ -99,8 +99,8 @@ static void turn_round(said *s) {
   }
 }
 
-/* The side of o + (a + b)/2 d, exactly. */
-static quoin_side side_between(const fuzz_scene *s, const quoin_ray *r, double a, double b, int *known) {
+/* The side of o + ((a + b)/2 + beside 2^-190 (b - a)) d, exactly. */
+static quoin_side side_beside(const fuzz_scene *s, const quoin_ray *r, double a, double b, int beside, int *known) {
   mpf_t t, d, x;
   mpf_init2(t, 4300); /* holds every sum and product of doubles */
   mpf_init2(d, 4300);
@@ -111,6 +111,12 @@ static quoin_side side_between(const fuzz_scene *s, const quoin_ray *r, double a
   mpf_set_d(d, b);
   mpf_add(t, t, d);
   mpf_div_2exp(t, t, 1);
+  if (beside) {
+    mpf_set_d(x, a);
+    mpf_sub(d, d, x);
+    mpf_div_2exp(d, d, 190);
+    (beside > 0 ? mpf_add : mpf_sub)(t, t, d);
+  }
   for (int i = 0; i < 3; i++) {
     mpf_set_d(d, r->d[i]);
     mpf_mul(x, t, d);
@@ -123,6 +129,19 @@ static quoin_side side_between(const fuzz_scene *s, const quoin_ray *r, double a
   quoin_side side = QUOIN_OUTSIDE;
   *known = fuzz_answered(quoin_point_side_text(s->scene, s->work, at, &side), "a point on a ray");
   return side;
+}
+
+/* In the middle between two places; where a point is not on the side that it should be on, on either side of it: of irrational numbers what agrees to 2^-200 is equal (S2), so that a gap
+   narrower than that is none along a ray, and may be one for a point in it. */
+static quoin_side side_between(const fuzz_scene *s, const quoin_ray *r, double a, double b, quoin_side should, int *known) {
+  const quoin_side side = side_beside(s, r, a, b, 0, known);
+  int left_known, right_known;
+  if (!*known || side == should || side == QUOIN_BOUNDARY) {
+    return side;
+  }
+  const quoin_side left = side_beside(s, r, a, b, -1, &left_known), right = side_beside(s, r, a, b, 1, &right_known);
+  *known = left_known && right_known;
+  return left == should && right == should ? should : side;
 }
 
 static int far_apart(double a, double b) { /* a double or two between them, so that the middle is between the exact places as well */
@@ -143,11 +162,11 @@ static void middles(const fuzz_scene *s, const quoin_ray *r, const said *x) {
   int known;
   for (size_t i = 0; moderate(r) && i < x->n && i < 6 && !fuzz_late(); i++) {
     const quoin_end *e = x->end + 2 * i;
-    if (far_apart(e[0].t, e[1].t) && side_between(s, r, e[0].t, e[1].t, &known) == QUOIN_OUTSIDE && known) {
+    if (far_apart(e[0].t, e[1].t) && side_between(s, r, e[0].t, e[1].t, QUOIN_INSIDE, &known) == QUOIN_OUTSIDE && known) {
       say_ray(r, text);
       fuzz_wrong("a point halfway from %.17g to %.17g is outside: %s", e[0].t, e[1].t, text);
     }
-    if (i + 1 < x->n && x->boundary == 0 && far_apart(e[1].t, e[2].t) && side_between(s, r, e[1].t, e[2].t, &known) == QUOIN_INSIDE && known) {
+    if (i + 1 < x->n && x->boundary == 0 && far_apart(e[1].t, e[2].t) && side_between(s, r, e[1].t, e[2].t, QUOIN_OUTSIDE, &known) == QUOIN_INSIDE && known) {
       say_ray(r, text);
       fuzz_wrong("a point between stretches, halfway from %.17g to %.17g, is inside: %s", e[1].t, e[2].t, text);
     }
