@@ -135,20 +135,29 @@ void qn_frustum_share(const qn_frustum *f, int tiles, qn_packet *out) {
   out->few = QN_MANY_LANES;
   out->any = out->kept_ranges = 0;
   out->new_origins = out->new_directions = 1;
+  out->entry = NULL;
   out->tile = !tiles ? QN_TILE_NONE : f->orthographic ? QN_TILE_ORIGINS : QN_TILE_DIRECTIONS;
 }
 
-void qn_frustum_tile(const qn_frustum *f, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out) {
-  const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+/* Columns and rows through the centres of these pixels. */
+static void columns_and_rows(const qn_frustum *f, const size_t x[8], const size_t y[8], qn_packet *out) {
   const double *base = f->orthographic ? f->eye : f->forward;
   for (unsigned i = 0; i < 8; i++) {
-    const double across = across_of(f, (double)(x + (i < columns ? i : columns - 1)) + 0.5);
-    const double upwards = upwards_of(f, (double)(y + (i < rows ? i : rows - 1)) + 0.5);
+    const double across = across_of(f, (double)x[i] + 0.5), upwards = upwards_of(f, (double)y[i] + 0.5);
     for (int k = 0; k < 3; k++) {
       out->across[k][i] = base[k] + across * f->right[k];
       out->up[k][i] = upwards * f->up[k];
     }
   }
+}
+
+void qn_frustum_tile(const qn_frustum *f, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out) {
+  const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8, rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
+  size_t xs[8], ys[8];
+  for (unsigned i = 0; i < 8; i++) {
+    xs[i] = x + (i < columns ? i : columns - 1), ys[i] = y + (i < rows ? i : rows - 1);
+  }
+  columns_and_rows(f, xs, ys, out);
   out->live = ~(uint64_t)0;
   if (columns < 8 || rows < 8) {
     out->live = 0;
@@ -156,6 +165,15 @@ void qn_frustum_tile(const qn_frustum *f, size_t x, size_t y, size_t x1, size_t 
       out->live |= (uint64_t)(qn_lane_column(lane) < columns && qn_lane_row(lane) < rows) << lane;
     }
   }
+}
+
+void qn_frustum_block(const qn_frustum *f, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out) {
+  size_t xs[8], ys[8];
+  for (unsigned i = 0; i < 8; i++) {
+    xs[i] = i < 4 ? x : x1 - 1, ys[i] = i < 4 ? y : y1 - 1;
+  }
+  columns_and_rows(f, xs, ys, out);
+  out->live = ~(uint64_t)0;
 }
 
 /* The box to be framed: the solid's, an open side put at the size of the largest closed one from the side that is there. */

@@ -29,6 +29,8 @@ void qn_frustum_rays(const qn_frustum *frustum, const double x[QN_LANES], const 
 /* The rays through the centres of the 8 by 8 pixels from (x, y) on, as a tile of a packet; columns and rows from x1 and y1 on repeat the
    last. The same doubles as qn_frustum_ray's. Fills in everything but what is the same for all tiles (qn_frustum_share). */
 void qn_frustum_tile(const qn_frustum *frustum, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out);
+/* A tile of that kind between whose first and last columns and rows are all pixels from (x, y) to (x1, y1): for an entry (qn_enter_fn in wide/packet.h). */
+void qn_frustum_block(const qn_frustum *frustum, size_t x, size_t y, size_t x1, size_t y1, qn_packet *out);
 /* What all packets of camera rays share, for packets of tiles or of rays made one by one: from, to, on, and the eye or the direction. */
 void qn_frustum_share(const qn_frustum *frustum, int tiles, qn_packet *out);
 

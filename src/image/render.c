@@ -5,6 +5,7 @@
 #include "image/colour.h"
 #include "image/refine.h"
 #include "image/trace.h"
+#include "query/look.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,11 +99,18 @@ static quoin_status first_tile(void *user, unsigned thread, size_t number) {
   const tile t = tile_at(r, number);
   qn_tracer *tracer;
   quoin_status status = tracer_of(r, thread, &tracer);
+  qn_entry entry;
+  int entered = 0;
+  if (status == QUOIN_OK && r->picture.narrow) {
+    qn_frustum_block(&r->picture.frustum, t.x0, t.y0, t.x1, t.y1, &tracer->tile);
+    entered = qn_look_enter(tracer->work, &tracer->tile, 0, &entry);
+  }
   for (size_t y = t.y0; status == QUOIN_OK && y < t.y1; y += BLOCK) {
     for (size_t x = t.x0; status == QUOIN_OK && x < t.x1; x += BLOCK) {
       qn_packet *rays = &tracer->tile;
       qn_frustum_tile(&r->picture.frustum, x, y, t.x1, t.y1, rays);
       const uint64_t live = rays->live;
+      rays->entry = entered ? &entry : NULL;
       if (!r->picture.narrow) {
         rays = one_by_one(r, tracer, x, y, live);
       }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STRIP = 16 }; /* tiles side by side whose columns are computed at once */
+enum { STRIP = 16, TOGETHER = 4 }; /* tiles side by side whose columns are computed at once; and that share an entry (wide/packet.h), as many one above the other */
 
 static int finite3(const double v[3]) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
 
@@ -74,6 +74,7 @@ static void fill_shared(const quoin_grid *g, qn_packet *p) {
   p->new_origins = p->new_directions = 1, p->kept_ranges = 0;
   p->few = QN_MANY_LANES;
   p->any = 0;
+  p->entry = NULL;
   p->tile = g->converging ? QN_TILE_DIRECTIONS : QN_TILE_ORIGINS;
 }
 
@@ -98,6 +99,98 @@ static int has_zero(const qn_packet *p) {
   return zero;
 }
 
+/* --- tile by tile ------------------------------------------------------------------------------------------------------ */
+
+typedef struct tiles {
+  quoin_work *work;
+  const quoin_grid *grid;
+  qn_packet *packet;
+  size_t x0, y0, x1, y1, strip; /* of the grid; and where this strip begins */
+  int leaves, enters;           /* leaves: what is walked is the hierarchy of all leaves; enters: it has more than one node */
+  size_t x, y;                  /* of this tile, */
+  unsigned columns, rows;       /* and how much of it there is */
+  double across[STRIP][3][8];
+  qn_entry entry[STRIP / TOGETHER];
+  int entered[STRIP / TOGETHER];
+} tiles;
+
+static void tiles_begin(tiles *t, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, int leaves, qn_packet *packet) {
+  t->work = work, t->grid = grid, t->packet = packet;
+  t->x0 = x0, t->y0 = y0, t->x1 = x1, t->y1 = y1, t->leaves = leaves;
+  t->enters = (leaves ? work->scene->bvh.node_count : work->scene->normal.node_count) > 1;
+  memset(t->entered, 0, sizeof t->entered);
+  t->strip = t->x = x0, t->y = y0, t->columns = 0;
+  fill_shared(grid, packet);
+}
+
+/* After its body has seen a tile. */
+static void packet_seen(tiles *t) { t->packet->new_origins = !t->grid->converging, t->packet->new_directions = t->grid->converging, t->packet->kept_ranges = 1; }
+
+/* The entries of TOGETHER rows of tiles of a strip, from y on. A few tiles alone do without. */
+static void enter(tiles *t, size_t y) {
+  qn_packet *p = t->packet;
+  const size_t tiles_up = (t->y1 - y + 7) / 8, up = tiles_up < TOGETHER ? tiles_up : TOGETHER;
+  double top[3][8];
+  rows_of(t->grid, y, t->y1 - 1, p->up), rows_of(t->grid, y + 8 * (up - 1), t->y1 - 1, top);
+  for (int k = 0; k < 3; k++) {
+    memcpy(p->up[k] + 4, top[k] + 4, 4 * sizeof **top);
+  }
+  for (size_t i = 0; i < STRIP && t->strip + 8 * i < t->x1; i += TOGETHER) {
+    const size_t tiles_on = (t->x1 - t->strip + 7) / 8 - i, on = tiles_on < TOGETHER ? tiles_on : TOGETHER;
+    t->entered[i / TOGETHER] = 0;
+    if (on * up >= TOGETHER) {
+      for (int k = 0; k < 3; k++) {
+        memcpy(p->across[k], t->across[i][k], 4 * sizeof(double)), memcpy(p->across[k] + 4, t->across[i + on - 1][k] + 4, 4 * sizeof(double));
+      }
+      if (qn_look_enter(t->work, p, t->leaves, &t->entry[i / TOGETHER])) {
+        t->entered[i / TOGETHER] = 1;
+        packet_seen(t);
+      }
+    }
+  }
+}
+
+/* The next row of tiles of a strip, or the first one of the next strip; 0: there is none. */
+static int next_row(tiles *t) {
+  t->y += t->columns == 0 ? 0 : 8;
+  if (t->y >= t->y1) {
+    t->strip += 8 * STRIP, t->y = t->y0;
+  }
+  if (t->strip >= t->x1) {
+    return 0;
+  }
+  t->x = t->strip;
+  for (size_t i = 0; t->y == t->y0 && i < STRIP && t->strip + 8 * i < t->x1; i++) {
+    columns_of(t->grid, t->strip + 8 * i, t->x1 - 1, t->across[i]);
+  }
+  if (t->enters && (t->y - t->y0) % (8 * TOGETHER) == 0) {
+    enter(t, t->y);
+  }
+  t->rows = t->y1 - t->y < 8 ? (unsigned)(t->y1 - t->y) : 8;
+  rows_of(t->grid, t->y, t->y1 - 1, t->packet->up);
+  return 1;
+}
+
+/* Fills the packet with the next tile; 0: there is none. */
+QN_INLINE int next_tile(tiles *t) {
+  qn_packet *p = t->packet;
+  if (t->columns != 0) {
+    packet_seen(t);
+    t->x += 8;
+  }
+  if (t->columns == 0 || t->x >= t->x1 || t->x - t->strip == 8 * STRIP) {
+    if (!next_row(t)) {
+      return 0;
+    }
+  }
+  const size_t i = (t->x - t->strip) / 8;
+  t->columns = t->x1 - t->x < 8 ? (unsigned)(t->x1 - t->x) : 8;
+  memcpy(p->across, t->across[i], sizeof p->across);
+  p->live = t->columns == 8 && t->rows == 8 ? ~(uint64_t)0 : lanes_within(t->columns, t->rows);
+  p->entry = t->entered[i / TOGETHER] ? &t->entry[i / TOGETHER] : NULL;
+  return 1;
+}
+
 quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, unsigned want,
                              quoin_spot *out) {
   if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height) {
@@ -111,35 +204,22 @@ quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const q
     return QUOIN_E_ARGUMENT;
   }
   qn_packet packet;
-  fill_shared(grid, &packet);
+  tiles t;
+  tiles_begin(&t, work, grid, x0, y0, x1, y1, 0, &packet);
   const size_t stride = x1 - x0;
   const unsigned look = want & QUOIN_WANT_T ? QN_LOOK_T : 0;
-  double across[STRIP][3][8];
-  for (size_t strip = x0; strip < x1; strip += 8 * STRIP) {
-    for (size_t i = 0; i < STRIP && strip + 8 * i < x1; i++) {
-      columns_of(grid, strip + 8 * i, x1 - 1, across[i]);
+  while (next_tile(&t)) {
+    const int whole = t.columns == 8 && t.rows == 8;
+    if (near_zero && has_zero(&packet)) {
+      return QUOIN_E_ARGUMENT;
     }
-    for (size_t y = y0; y < y1; y += 8) {
-      const unsigned rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
-      rows_of(grid, y, y1 - 1, packet.up);
-      for (size_t i = 0, x = strip; i < STRIP && x < x1; i++, x += 8) {
-        const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8;
-        const int whole = columns == 8 && rows == 8;
-        memcpy(packet.across, across[i], sizeof packet.across);
-        if (near_zero && has_zero(&packet)) {
-          return QUOIN_E_ARGUMENT;
-        }
-        packet.live = whole ? ~(uint64_t)0 : lanes_within(columns, rows);
-        quoin_spot part[QN_LANES], *tile = out + (y - y0) * stride + (x - x0);
-        quoin_status status = qn_look_tile(work, &packet, look, whole ? tile : part, whole ? stride : 8);
-        if (status != QUOIN_OK) {
-          return status;
-        }
-        for (unsigned w = 0; !whole && w < rows; w++) {
-          memcpy(tile + w * stride, part + 8 * w, columns * sizeof *part);
-        }
-        packet.new_origins = !grid->converging, packet.new_directions = grid->converging, packet.kept_ranges = 1;
-      }
+    quoin_spot part[QN_LANES], *tile = out + (t.y - y0) * stride + (t.x - x0);
+    quoin_status status = qn_look_tile(work, &packet, look, whole ? tile : part, whole ? stride : 8);
+    if (status != QUOIN_OK) {
+      return status;
+    }
+    for (unsigned w = 0; !whole && w < t.rows; w++) {
+      memcpy(tile + w * stride, part + 8 * w, t.columns * sizeof *part);
     }
   }
   return QUOIN_OK;
@@ -239,28 +319,15 @@ quoin_status quoin_grid_intervals(const quoin_scene *scene, quoin_work *work, co
     return QUOIN_E_MEMORY;
   }
   s->found_count = s->boundary_count = 0;
-  fill_shared(grid, packet);
-  double across[STRIP][3][8];
-  for (size_t strip = x0; strip < x1; strip += 8 * STRIP) {
-    for (size_t i = 0; i < STRIP && strip + 8 * i < x1; i++) {
-      columns_of(grid, strip + 8 * i, x1 - 1, across[i]);
+  tiles t;
+  tiles_begin(&t, work, grid, x0, y0, x1, y1, 1, packet);
+  while (next_tile(&t)) {
+    if (near_zero && has_zero(packet)) {
+      return QUOIN_E_ARGUMENT;
     }
-    for (size_t y = y0; y < y1; y += 8) {
-      const unsigned rows = y1 - y < 8 ? (unsigned)(y1 - y) : 8;
-      rows_of(grid, y, y1 - 1, packet->up);
-      for (size_t i = 0, x = strip; i < STRIP && x < x1; i++, x += 8) {
-        const unsigned columns = x1 - x < 8 ? (unsigned)(x1 - x) : 8;
-        memcpy(packet->across, across[i], sizeof packet->across);
-        if (near_zero && has_zero(packet)) {
-          return QUOIN_E_ARGUMENT;
-        }
-        packet->live = columns == 8 && rows == 8 ? ~(uint64_t)0 : lanes_within(columns, rows);
-        quoin_status status = tile_intervals(work, want, (y - y0) * stride + (x - x0), stride, columns, rows);
-        if (status != QUOIN_OK) {
-          return status;
-        }
-        packet->new_origins = !grid->converging, packet->new_directions = grid->converging, packet->kept_ranges = 1;
-      }
+    quoin_status status = tile_intervals(work, want, (t.y - y0) * stride + (t.x - x0), stride, t.columns, t.rows);
+    if (status != QUOIN_OK) {
+      return status;
     }
   }
   *out = (quoin_grid_answer){rays, s->found_of, s->found_count, s->found, want ? s->boundary_of : NULL, s->boundary_count, s->boundary};

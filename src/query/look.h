@@ -60,6 +60,8 @@ quoin_status qn_look_woven(quoin_work *work, const qn_packet *packet, unsigned l
 quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_packet_hits *hits, unsigned lane, double *t);
 /* A packet's answers as rows of eight spots. */
 quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride);
+/* The entry of neighbouring tiles (qn_enter_fn in wide/packet.h), counted. */
+int qn_look_enter(quoin_work *work, qn_packet *packet, int leaves, qn_entry *entry);
 /* Runs a packet's body and counts; without a normal form every lane is unsure. */
 void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits);
 

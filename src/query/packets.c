@@ -74,6 +74,13 @@ void qn_look_run(quoin_work *work, qn_packet *packet, qn_packet_hits *hits) {
   run(work, packet, packet->few, hits);
 }
 
+int qn_look_enter(quoin_work *work, qn_packet *packet, int leaves, qn_entry *entry) {
+  qn_wide_counts wide = {0};
+  const int entered = (leaves || work->scene->normal.made) && work->wide->enter(work->scene, packet, leaves, entry, &wide);
+  qn_scratch_counts(work->scratch)->nodes += wide.nodes;
+  return entered;
+}
+
 /* The first boundary between two parameters of a lane's ray. */
 static quoin_status weave_between(quoin_work *work, const quoin_ray *ray, double from, double to, unsigned want, qn_seen *out) {
   const quoin_scene *scene = work->scene;

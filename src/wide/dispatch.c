@@ -5,6 +5,7 @@
 
 #define BODIES_OF(isa)                                                                                   \
   void qn_first_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);      \
+  int qn_enter_##isa(const struct quoin_scene *, qn_packet *, int, qn_entry *, qn_wide_counts *);        \
   void qn_few_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);        \
   void qn_one_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);        \
   void qn_each_##isa(const struct quoin_scene *, qn_packet *, qn_packet_hits *, qn_wide_counts *);       \
@@ -27,7 +28,7 @@ BODIES_OF(avx512)
 /* NOLINTBEGIN(bugprone-macro-parentheses): a part of names */
 #define ROW(isa, lanes)                                                                                                                  \
   {                                                                                                                                      \
-    .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .each = qn_each_##isa, .spans = qn_spans_##isa, \
+    .name = #isa, .width = lanes, .first = qn_first_##isa, .few = qn_few_##isa, .one = qn_one_##isa, .each = qn_each_##isa, .enter = qn_enter_##isa, .spans = qn_spans_##isa, \
     .spans_few = qn_spans_few_##isa, .points = qn_points_##isa, .spots = qn_spots_##isa, .round = qn_round_##isa, .round_one = qn_round_one_##isa, \
     .round_rows = qn_round_rows_##isa, .write_rows = qn_write_rows_##isa, .gather = qn_gather_##isa, .move = qn_move_##isa                                                  \
   }

@@ -86,17 +86,15 @@ QN_INLINE int push_heads(const walk *w, const qn_bvh_node *nodes, uint32_t root,
 #if QN_LANES_NOW == 64
 /* The one child that is met, or QN_BVH_NONE where there are several. */
 QN_INLINE uint32_t only_head(const qn_bvh_node *nodes, uint32_t root, const heads *h) {
-  uint32_t only = QN_BVH_NONE;
-  for (unsigned k = 0; k < (h->entry ? h->entry->count : 1); k++) {
-    const unsigned meets = h->meets[k];
-    if (meets) {
-      if (only != QN_BVH_NONE || (meets & (meets - 1)) != 0) {
-        return QN_BVH_NONE;
-      }
-      only = (h->entry ? &h->entry->nodes[k] : &nodes[root])->child[qn_trailing_zeros(meets)];
+  const qn_bvh_node *n = &nodes[root];
+  unsigned meets = h->meets[0];
+  for (unsigned k = 0; h->entry && k < h->entry->count; k++) {
+    if (h->meets[k] && n != &nodes[root]) {
+      return QN_BVH_NONE;
     }
+    meets = h->meets[k] ? h->meets[k] : meets, n = h->meets[k] ? &h->entry->nodes[k] : n;
   }
-  return only;
+  return (meets & (meets - 1)) != 0 ? QN_BVH_NONE : n->child[qn_trailing_zeros(meets)];
 }
 #endif
 

@@ -21,6 +21,14 @@ QN_INLINE unsigned qn_lane_of(unsigned column, unsigned row) {
 
 typedef struct qn_ends { _Alignas(64) double t[QN_LANES], p[QN_LANES]; } qn_ends; /* places and payloads (walk.h) */
 
+/* Where the walk of a tile may begin in place of the root: boxes of a cut through the hierarchy, which hold all that any ray of some neighbouring tiles may meet in their range. */
+enum { QN_ENTRY_NODES = 3, QN_ENTRY_BOXES = 8 * QN_ENTRY_NODES };
+typedef struct qn_entry {
+  qn_bvh_node nodes[QN_ENTRY_NODES];                     /* of eight boxes each, the nearest first */
+  uint32_t parent[QN_ENTRY_BOXES], slot[QN_ENTRY_BOXES]; /* of the hierarchy, whose children these are */
+  unsigned count;                                        /* nodes in use; none: nothing is met */
+} qn_entry;
+
 typedef struct qn_packet {
   _Alignas(64) double o[3][QN_LANES], d[3][QN_LANES]; /* d finite, not the zero vector */
   _Alignas(64) double from[QN_LANES], to[QN_LANES];
@@ -37,6 +45,7 @@ typedef struct qn_packet {
      d + dlow, to 2^-104 of each number, and |olow| is at most u |o|, |dlow| at most u |d|. TILE_MOVED: so they are, and the line's o is within u moved of this one, component
      by component; only for packets with `any`. */
   enum { QN_TILE_NONE, QN_TILE_ORIGINS, QN_TILE_DIRECTIONS, QN_TILE_PAIRS, QN_TILE_MOVED } tile;
+  const qn_entry *entry; /* of tiles of o or d alone: null, or what holds for them and the hierarchy that is walked */
   double moved[3];
   _Alignas(64) double across[3][8], up[3][8];
   _Alignas(64) double olow[3][QN_LANES], dlow[3][QN_LANES];
@@ -71,6 +80,10 @@ typedef struct qn_wide_counts { uint64_t nodes, leaves, packets, budget, lost; }
 
 /* The first boundary at or after `from` and not after `to`. */
 typedef void (*qn_first_fn)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
+
+/* The entry of the tiles whose columns and rows lie between the first and the last ones of this packet, a tile of o or d with the range of them all: to the scene's set, or to all
+   leaves (qn_spans_fn). 0: there is none, or it would gain nothing. */
+typedef int (*qn_enter_fn)(const struct quoin_scene *scene, qn_packet *packet, int leaves, qn_entry *entry, qn_wide_counts *counts);
 
 /* The doubles nearest to the hits of `lanes` (all of them found ones, in a packet that has been through its body), into t (aligned to 64); the lanes for which it is certain that
    they are. The other lanes' t is arbitrary: they go through qn_place_round. *made is increased by the exact forms made. */
@@ -166,6 +179,7 @@ typedef struct qn_wide {
   qn_first_fn few;   /* the first QN_FEW lanes alone, as quick as those need; no tiles */
   qn_first_fn one;   /* the first lane alone */
   qn_first_fn each;  /* each live lane alone, several of them at a time; the same answers as theirs one by one, and zeros where nothing is found; no tiles */
+  qn_enter_fn enter;
   qn_round_fn round;
   qn_spans_fn spans, spans_few; /* of all lanes; of the first QN_FEW */
   unsigned width;               /* lanes of a group in qn_packet_spans */

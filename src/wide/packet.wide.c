@@ -4,3 +4,5 @@
 #define QN_SPANS QN_OF_ISA(qn_spans)
 #include "wide/packet_body.h"
 #include "wide/spans_body.h"
+
+#include "wide/entry_body.h"

@@ -10,6 +10,7 @@
 #define QN_WIDE_PACKET_BODY_H
 
 #include "wide/facts.h"
+#include "wide/heads.h"
 #include "wide/lane_points.h"
 #include "wide/lasts.h"
 #include "wide/leaf_enter.h"
@@ -190,30 +191,6 @@ static float earliest(const walk *w, const lanes *at, uint64_t mask) {
   return first;
 }
 
-typedef struct waiting { float near; uint32_t node, parent, slot; } waiting; /* node: or QN_BVH_LEAF | term */
-
-/* Farthest first, so that the nearest is taken next. What is needed of each is fetched already. */
-QN_INLINE int push_children(const walk *w, uint32_t node, unsigned meets, const float near[8], waiting *stack, int top) {
-  const qn_bvh_node *n = &w->normal->nodes[node];
-  for (const int first = top; meets; meets &= meets - 1) {
-    unsigned c = qn_trailing_zeros(meets);
-    int j = top++;
-    for (; j > first && stack[j - 1].near < near[c]; j--) {
-      stack[j] = stack[j - 1];
-    }
-    const uint32_t child = n->child[c];
-    stack[j] = (waiting){near[c], child, node, c};
-    if (child & QN_BVH_LEAF) {
-      const uint32_t line = w->scene->plain[child & ~QN_BVH_LEAF];
-      const void *next = line != UINT32_MAX ? (const void *)piece_in(w, line) : &w->normal->terms[child & ~QN_BVH_LEAF];
-      QN_FETCH(next);
-    } else {
-      QN_FETCH(&w->normal->nodes[child]), QN_FETCH(w->normal->nodes[child].max), QN_FETCH(&w->normal->nodes[child].max[2]);
-    }
-  }
-  return top;
-}
-
 #if QN_LANES_NOW == 64
 /* The ball that a node's child is, or null. */
 QN_INLINE const qn_piece_sphere *ball_of(const walk *w, uint32_t child) {
@@ -223,13 +200,14 @@ QN_INLINE const qn_piece_sphere *ball_of(const walk *w, uint32_t child) {
 }
 
 /* Whether all that a tile may meet is one ball, and no lane meets that. */
-QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
-  const qn_piece_sphere *b = (meets & (meets - 1)) != 0 || w->f.p->tile != QN_TILE_ORIGINS ? NULL : ball_of(w, w->normal->nodes[un->root].child[qn_trailing_zeros(meets)]);
+QN_INLINE int misses_only(walk *w, const qn_union *un, const heads *h) {
+  const uint32_t only = w->f.p->tile == QN_TILE_ORIGINS ? only_head(w->normal->nodes, un->root, h) : QN_BVH_NONE;
+  const qn_piece_sphere *b = only == QN_BVH_NONE ? NULL : ball_of(w, only);
   return b && !outline_lanes(w, b);
 }
 #else
-QN_INLINE int misses_only(walk *w, const qn_union *un, unsigned meets) {
-  (void)w, (void)un, (void)meets;
+QN_INLINE int misses_only(walk *w, const qn_union *un, const heads *h) {
+  (void)w, (void)un, (void)h;
   return 0;
 }
 #endif
@@ -245,9 +223,9 @@ QN_INLINE uint64_t lanes_meet_term(walk *w, const waiting *at) {
   return subs_meet_child(w, &w->normal->nodes[at->parent], at->slot);
 }
 
-/* No lane starts before `start` or has a best place after `end`. meets, near: the root's children that may be met, and where. any: a lane is done when a
+/* No lane starts before `start` or has a best place after `end`. h: where the walk begins. any: a lane is done when a
    place is found, the first or not. */
-static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint64_t mask, lanes *best, float start, float end, unsigned meets, float near[8], int any) {
+static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint64_t mask, lanes *best, float start, float end, const heads *h, int any) {
   const qn_nterm *terms = w->normal->terms;
   uint64_t found = 0, better = 0;
   for (uint32_t i = 0; i < un->wide; i++) {
@@ -257,7 +235,7 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
     return better & ~w->unsure;
   }
   waiting stack[STACK];
-  int top = push_children(w, un->root, meets, near, stack, 0);
+  int top = push_heads(w, w->normal->nodes, un->root, h, stack, 1);
 #if QN_LANES_NOW == 64
   lasts last;
   fstore(last.of, fset(end)), fstore(last.of + 8, fset(end));
@@ -311,18 +289,10 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
     }
     const qn_bvh_node *n = &w->normal->nodes[at];
     w->counts.nodes++;
-    meets = node_meets(w, n, start, end, near);
-    top = push_children(w, at, meets, near, stack, top);
+    _Alignas(32) float near[8];
+    const unsigned meets = node_meets(w, n, start, end, near);
+    top = push_children(w, w->normal->nodes, at, meets, near, stack, top, 1);
   }
-}
-
-/* The root's children that may be met. */
-QN_INLINE unsigned root_meets(walk *w, const qn_union *un, float start, float end, float near[8]) {
-  if (un->root == QN_NO_ROOT) {
-    return 0;
-  }
-  w->counts.nodes++;
-  return node_meets(w, &w->normal->nodes[un->root], start, end, near);
 }
 
 static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mask, lanes *best) {
@@ -331,10 +301,10 @@ static uint64_t union_enter(walk *w, uint32_t u, const lanes *from, uint64_t mas
     return 0;
   }
   const qn_union *un = &w->normal->unions[u];
-  _Alignas(32) float near[8];
+  heads h;
   float start = earliest(w, from, mask), end = latest(w, best, mask);
-  unsigned meets = root_meets(w, un, start, end, near);
-  return union_walk(w, un, from, mask, best, start, end, meets, near, 0);
+  heads_meet(w, w->normal->nodes, un->root, NULL, start, end, &h);
+  return union_walk(w, un, from, mask, best, start, end, &h, 0);
 }
 
 /* One pass: every term that holds a lane is left. Returns the lanes that moved. */
@@ -427,10 +397,10 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     return;
   }
   const qn_union *root = &scene->normal.unions[scene->normal.root];
-  _Alignas(32) float near[8];
-  const unsigned meets = root_meets(&w, root, packet->soonest, packet->latest, near);
+  heads h;
+  const int meets = heads_meet(&w, scene->normal.nodes, root->root, entry_of(packet), packet->soonest, packet->latest, &h);
   counts->packets++;
-  if (root->wide == 0 && (!meets || misses_only(&w, root, meets)) && !(packet->any && scene->normal.complement)) { /* nothing near: no ray need be made */
+  if (root->wide == 0 && (!meets || misses_only(&w, root, &h)) && !(packet->any && scene->normal.complement)) { /* nothing near: no ray need be made */
     counts->nodes += w.counts.nodes;
     return;
   }
@@ -456,7 +426,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     w.unsure |= (uint64_t)(packet->from[k] < packet->to[k]) << k;
   }
   if (packet->any) {
-    hits->found = (scene->normal.complement ? any_outside(&w, start, mask) : mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near, 1) : 0);
+    hits->found = (scene->normal.complement ? any_outside(&w, start, mask) : mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, &h, 1) : 0);
     for (uint64_t m = scene->normal.complement ? 0 : hits->found; m; m &= m - 1) {
       unsigned k = qn_trailing_zeros(m);
       w.unsure |= (uint64_t)!(fabs(best.t[k]) <= w.f.reach) << k; /* as below */
@@ -466,7 +436,7 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
     return;
   }
-  uint64_t found = mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, meets, near, 0) : 0;
+  uint64_t found = mask ? union_walk(&w, root, start, mask, &best, packet->soonest, packet->latest, &h, 0) : 0;
   uint64_t within = 0; /* lanes whose ray begins inside the set: their first boundary is where they leave it */
   vd payloads = vset(0); /* of any lane */
   for (int j = 0; j < QN_LANES_NOW; j += QN_W) {

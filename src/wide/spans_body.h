@@ -61,22 +61,6 @@ static void leaf_spans(walk *w, uint32_t leaf, uint64_t mask, qn_packet_spans *o
   leaf_spans_of(w, QN_PIECE_ROUND, head, mask, out);
 }
 
-/* A node's child that is met from `near` on. */
-typedef struct span_child { float near; uint32_t child, node, slot; } span_child;
-
-/* Farthest first, so that the nearest is taken next. */
-QN_INLINE void wait_for(span_child *stack, int *top, const qn_bvh *bvh, uint32_t node, unsigned meets, const float near[8]) {
-  const int first = *top;
-  for (; meets; meets &= meets - 1) {
-    unsigned c = qn_trailing_zeros(meets);
-    int j = (*top)++;
-    for (; j > first && stack[j - 1].near < near[c]; j--) {
-      stack[j] = stack[j - 1];
-    }
-    stack[j] = (span_child){near[c], bvh->nodes[node].child[c], node, c};
-  }
-}
-
 /* Where some lanes have no range, or one beyond what floats hold. */
 static QN_NOINLINE void ranges(const qn_packet *packet, uint64_t *mask, float *start, float *end) {
   double from = INFINITY, to = -INFINITY;
@@ -106,13 +90,10 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
   if (QN_UNLIKELY(packet->empty || !(start <= end))) { /* no numbers: they lie beyond floats */
     ranges(packet, &mask, &start, &end);
   }
-  _Alignas(32) float near[8];
-  unsigned meets = 0;
-  if (scene->bvh.node_count && mask) {
-    w.counts.nodes++;
-    meets = node_meets(&w, &scene->bvh.nodes[0], start, end, near);
-  }
-  if (!meets && !scene->unbounded_count) { /* nothing near: no ray need be made */
+  const qn_bvh_node *nodes = scene->bvh.nodes;
+  const uint32_t root = scene->bvh.node_count && mask ? 0 : QN_NO_ROOT;
+  heads h;
+  if (!heads_meet(&w, nodes, root, root == QN_NO_ROOT ? NULL : entry_of(packet), start, end, &h) && !scene->unbounded_count) { /* nothing near: no ray need be made */
     out->merged = scene->program.base ? 0 : packet->live;
     out->reach = w.f.reach;
     counts->nodes += w.counts.nodes;
@@ -127,22 +108,22 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
   for (size_t i = 0; i < scene->unbounded_count; i++) {
     leaf_spans(&w, scene->unbounded[i], mask & ~w.unsure, out);
   }
-  span_child stack[STACK];
-  int top = 0;
-  wait_for(stack, &top, &scene->bvh, 0, meets, near);
+  waiting stack[STACK];
+  int top = push_heads(&w, nodes, root, &h, stack, 0);
   while (top && !out->full) {
     top--;
-    uint32_t at = stack[top].child;
+    uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
-      uint64_t in = subs_meet_child(&w, &scene->bvh.nodes[stack[top].node], stack[top].slot) & mask & ~w.unsure;
+      uint64_t in = subs_meet_child(&w, &nodes[stack[top].parent], stack[top].slot) & mask & ~w.unsure;
       if (in) {
         leaf_spans(&w, scene->bvh.items[at & ~QN_BVH_LEAF], in, out);
       }
       continue;
     }
     w.counts.nodes++;
-    meets = node_meets(&w, &scene->bvh.nodes[at], start, end, near);
-    wait_for(stack, &top, &scene->bvh, at, meets, near);
+    _Alignas(32) float near[8];
+    const unsigned meets = node_meets(&w, &nodes[at], start, end, near);
+    top = push_children(&w, nodes, at, meets, near, stack, top, 0);
   }
   memcpy(out->tolerance, w.tolerance, sizeof w.tolerance);
   out->unsure = w.unsure & packet->live;

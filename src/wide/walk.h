@@ -14,7 +14,7 @@ typedef qn_ends lanes;
 typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
 #endif
 
-enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK = 7 * QN_BVH_DEPTH + 8, TIES = 4 };
+enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK = 7 * QN_BVH_DEPTH + QN_ENTRY_BOXES, TIES = 4 };
 
 #if QN_LANES_NOW == 1
 /* A single ray against boxes: which side of a box is met first along each axis, and what makes a plane's place of it: plane inv + near (or far). */
