@@ -308,8 +308,15 @@ static double slope_bound(double e, double p, double ratio, int way) {
   return phi < INFINITY ? fmax(0, phi - phi * error - DBL_MIN) : DBL_MAX;
 }
 
+/* b/a of numbers >= 0. */
+static qn_interval quotient(qn_interval b, qn_interval a) {
+  return (qn_interval){a.hi > 0 ? b.lo / a.hi : b.lo > 0 ? INFINITY : 0, a.lo > 0 ? b.hi / a.lo : INFINITY};
+}
+static qn_interval hull(qn_interval a, qn_interval b) { return (qn_interval){fmin(a.lo, b.lo), fmax(a.hi, b.hi)}; }
+static qn_interval inverse(qn_interval a) { return (qn_interval){a.hi < INFINITY ? 1 / a.hi : 0, a.lo > 0 ? 1 / a.lo : INFINITY}; }
+
 /* phi over ratios b/a with a, b in intervals of numbers >= 0. sure: the exponent is exactly e. */
-static qn_interval slope_range(double e, double p, int sure, qn_interval a, qn_interval b) {
+static qn_interval slope_range(double e, double p, int sure, qn_interval a, qn_interval b, qn_interval ratio) {
   if (p == 1) {
     double off = sure ? 0 : QN_SUPER_SLOPE(e, p) * (1 - log(DBL_TRUE_MIN));
     return (qn_interval){1 - off, 1 + off};
@@ -322,8 +329,7 @@ static qn_interval slope_range(double e, double p, int sure, qn_interval a, qn_i
   if (!(QN_SUPER_SLOPE(e, p) < QN_SUPER_SLOPE_MOST)) {
     return open;
   }
-  double least = a.hi > 0 ? b.lo / a.hi : b.lo > 0 ? INFINITY : 0, most = a.lo > 0 ? b.hi / a.lo : INFINITY;
-  double f = slope_bound(e, p, least, p > 1 ? 1 : -1), g = slope_bound(e, p, most, p > 1 ? -1 : 1);
+  double f = slope_bound(e, p, ratio.lo, p > 1 ? 1 : -1), g = slope_bound(e, p, ratio.hi, p > 1 ? -1 : 1);
   qn_interval r = p > 1 ? (qn_interval){g, f} : (qn_interval){f, g};
   return r.lo == r.lo && r.hi == r.hi ? r : open;
 }
@@ -362,8 +368,11 @@ static verdict by_ends(curve *c, double a, double b, qn_interval slope) {
   return most + bend > 16 * QN_U * (most - bend) ? (sign > 0 ? ABOVE : BELOW) : SPLIT;
 }
 
+/* A coordinate as computed, without its sign. */
+static qn_interval around(const curve *c, int i, double at) { return (qn_interval){fmax(0, at * (1 - 4 * QN_U) - c->off[i]), at * (1 + 4 * QN_U) + c->off[i]}; }
+
 static verdict judge(curve *c, double a, double b) {
-  qn_interval x[3];
+  qn_interval x[3], from[3], to[3];
   double lo[3], hi[3], g[3], error;
   int crossing = 0, way[3]; /* way: d|X_i|/dt is way D_i on a piece of one sign */
   for (int i = 0; i < 3; i++) {
@@ -371,10 +380,10 @@ static verdict judge(curve *c, double a, double b) {
     int cross = d != 0 && ((l < c->off[i] && h > -c->off[i]) || (l > -c->off[i] && h < c->off[i]));
     crossing |= cross;
     way[i] = l < 0 || h < 0 ? -1 : 1;
-    l = fabs(l), h = fabs(h);
-    lo[i] = cross ? 0 : fmax(0, fmin(l, h) * (1 - 4 * QN_U) - c->off[i]);
-    hi[i] = fmax(l, h) * (1 + 4 * QN_U) + c->off[i];
-    x[i] = (qn_interval){lo[i], hi[i]};
+    from[i] = around(c, i, fabs(l)), to[i] = around(c, i, fabs(h));
+    x[i] = hull(from[i], to[i]);
+    x[i].lo = cross ? 0 : x[i].lo;
+    lo[i] = x[i].lo, hi[i] = x[i].hi;
   }
   double least = qn_super_norm(&c->s, lo, g, &error);
   if (least - error > 1 || least == INFINITY) {
@@ -395,9 +404,10 @@ static verdict judge(curve *c, double a, double b) {
   rho.hi += rho_error;
   double e = c->s.e, p = c->s.p, n = c->s.n, q = c->s.q;
   int sure_e = c->frame.e[1] == 0, sure_n = c->frame.n[1] == 0;
-  qn_interval dx = scaled(slope_range(e, p, sure_e, x[0], x[1]), c, 0, way[0]), dy = scaled(slope_range(e, p, sure_e, x[1], x[0]), c, 1, way[1]);
-  qn_interval flat = qn_interval_mul(slope_range(n, q, sure_n, rho, x[2]), qn_interval_add(dx, dy));
-  qn_interval slope = qn_interval_add(flat, scaled(slope_range(n, q, sure_n, x[2], rho), c, 2, way[2]));
+  const qn_interval y_to_x = hull(quotient(from[1], from[0]), quotient(to[1], to[0])), z_to_rho = quotient(x[2], rho); /* the first is monotone along the piece; else it were wide beside a ruling */
+  qn_interval dx = scaled(slope_range(e, p, sure_e, x[0], x[1], y_to_x), c, 0, way[0]), dy = scaled(slope_range(e, p, sure_e, x[1], x[0], inverse(y_to_x)), c, 1, way[1]);
+  qn_interval flat = qn_interval_mul(slope_range(n, q, sure_n, rho, x[2], z_to_rho), qn_interval_add(dx, dy));
+  qn_interval slope = qn_interval_add(flat, scaled(slope_range(n, q, sure_n, x[2], rho, quotient(rho, x[2])), c, 2, way[2]));
   return slope.lo > 0 || slope.hi < 0 ? MONOTONE : by_ends(c, a, b, slope);
 }
 

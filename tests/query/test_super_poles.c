@@ -276,8 +276,51 @@ static void from_afar(void **state) {
   assert_true(census[0] > share_min(20) && census[1] > share_min(300) && census[2] > share_min(1000) && few > share_min(80));
 }
 
+/* Beside a ruling of n = 2, from beside the tip to beside the rim: f is 1 but for some 2^-50 all along. Most of these lines were refused. */
+static void rulings(void **state) {
+  (void)state;
+  uint64_t seed = 5;
+  int inside = 0, outside = 0, places = 0;
+  for (int round = 0; round < share_of(60); round++) {
+    const solid s = {{"0", "0", "0"}, {"1", "1", "1"}, round % 2 ? "3" : "0.7", "2"};
+    const double p = 2 / atof(s.e);
+    double x[8];
+    for (int i = 0; i < 8; i++) {
+      seed = seed * 6364136223846793005u + 1442695040888963407u;
+      x[i] = (double)(seed >> 40) * 0x1p-24;
+    }
+    const double d[3] = {x[0], pow(1 - pow(x[0], p), 1 / p), -1};
+    double o[3];
+    for (int i = 0; i < 3; i++) {
+      o[i] = (i == 2) - 3 * d[i] + (x[4 + i] < 0.5 ? -1 : 1) * ldexp(1, -44 - (int)(16 * x[1 + i]));
+    }
+    ask a;
+    open_solid(&a, &s);
+    const quoin_ray ray = {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, -INFINITY, INFINITY};
+    quoin_intervals found;
+    assert_int_equal(quoin_ray_intervals(a.scene, a.work, &ray, 0, &found), QUOIN_OK);
+    for (int k = -50; k <= 0; k++) { /* from the tip, a factor of two a step, and from the rim */
+      for (int end = 0; end < 2; end++) {
+        const double t = end ? 4 - ldexp(1, k) : 3 + ldexp(1, k);
+        int in = 0, near = 0;
+        for (size_t i = 0; i < found.count; i++) {
+          in |= found.inside[i].enter.t <= t && t <= found.inside[i].leave.t;
+          near |= fabs(found.inside[i].enter.t - t) < 0x1p-39 || fabs(found.inside[i].leave.t - t) < 0x1p-39;
+        }
+        const int sign = near ? 0 : sign_at(&s, o, d, t);
+        if (sign && ldexp(1, k) > 0x1p-38) { /* what is narrower than 2^-40 may be lost */
+          assert_int_equal(in, sign < 0);
+          inside += in, outside += !in, places++;
+        }
+      }
+    }
+    ask_close(&a);
+  }
+  assert_true(inside > share_min(200) && outside > share_min(200) && places > share_min(2000));
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(gap), cmocka_unit_test(poles), cmocka_unit_test(from_afar)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(gap), cmocka_unit_test(poles), cmocka_unit_test(from_afar), cmocka_unit_test(rulings)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   mpfr_free_cache();
   return failed;
