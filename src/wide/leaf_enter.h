@@ -86,7 +86,7 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
       met |= (uint64_t)vbits(better) << o;
       continue;
     }
-    const stretch near = s;
+    const stretch near = {s.a, s.b, s.pa, s.pb, s.error, s.hit, s.unsure}; /* of its own: s then lives in registers */
     met |= leaf_enter_near(w, g, vbits(m), &near, from, best);
   }
   *found |= met, w->counts.leaves += solved;

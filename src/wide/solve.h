@@ -94,11 +94,8 @@ QN_INLINE stretch sphere_solve(const packet_facts *f, const sphere_constants *k,
   x = vsub(x, vmul(middle, dx)), y = vsub(y, vmul(middle, dy)), z = vsub(z, vmul(middle, dz));
   vd rest = vsub(k->r2, vfma(x, x, vfma(y, y, vmul(z, z))));
   vm hit = vlt(k->ed_high, rest);
-  stretch s = {.pa = k->pa, .pb = k->pb, .error = k->error, .hit = hit, .unsure = doubt(vandnot(vandnot(vmask(QN_ALL_BITS), vlt(rest, k->ed_low)), hit))};
-  vd half = vsqrt(vmul(vpick(hit, rest, vset(0)), idd));
-  s.a = vsub(vset(0), vadd(middle, half));
-  s.b = vsub(half, middle);
-  return s;
+  const vd half = vsqrt(vmul(vpick(hit, rest, vset(0)), idd));
+  return (stretch){vsub(vset(0), vadd(middle, half)), vsub(half, middle), k->pa, k->pb, k->error, hit, doubt(vandnot(vandnot(vmask(QN_ALL_BITS), vlt(rest, k->ed_low)), hit))};
 }
 
 /* --- a plane's place, added to a stretch -------------------------------------------------------------------------- */
