@@ -33,7 +33,8 @@ typedef struct qn_root { const qn_quad *q; int which; } qn_root;
 /* The exact order of two roots, -1, 0 or 1; roots of rounded quadratics tie when they agree to 2^-QN_S2_BITS, relative to what
    a change of that size in the coefficients does to them. Cost 0.2 to 1 us, a few us where one is rounded. */
 int qn_root_cmp(qn_ctx *ctx, qn_root x, qn_root y);
-/* The order of two roots that tie so: of their stored forms where one is rounded, else 0. Ties are not transitive, this order is. */
+int qn_root_rounded(qn_root x); /* whether it is of a rounded quadratic */
+/* The order of two roots in their stored forms. Ties by that rule are not transitive, this order is. */
 int qn_root_cmp_stored(qn_ctx *ctx, qn_root x, qn_root y);
 /* The order of a root and the rational num/den, den > 0. */
 int qn_root_cmp_rat(qn_ctx *ctx, qn_root x, qn_int num, qn_int den);

@@ -33,19 +33,17 @@ static int64_t spread(qn_ctx *ctx, qn_root x) {
   return size == QN_EXACT ? QN_EXACT : size + 2 - slope - QN_S2_BITS;
 }
 
-static int stored_order(qn_ctx *ctx, qn_root x, qn_root y) {
-  const qn_quad p = qn_quad_stored_(x.q), q = qn_quad_stored_(y.q);
-  return qn_root_cmp(ctx, (qn_root){&p, x.which}, (qn_root){&q, y.which});
-}
+int qn_root_rounded(qn_root x) { return qn_quad_rounded_(x.q); }
 
 int qn_root_cmp_stored(qn_ctx *ctx, qn_root x, qn_root y) {
-  return x.q != y.q && (qn_quad_rounded_(x.q) || qn_quad_rounded_(y.q)) ? stored_order(ctx, x, y) : 0;
+  const qn_quad p = qn_quad_stored_(x.q), q = qn_quad_stored_(y.q);
+  return x.q == y.q ? (x.which > y.which) - (x.which < y.which) : qn_root_cmp(ctx, (qn_root){&p, x.which}, (qn_root){&q, y.which});
 }
 
 int qn_root_cmp_s2_(qn_ctx *ctx, qn_root x, qn_root y) {
   int64_t rho = larger(spread(ctx, x), spread(ctx, y));
   if (rho == QN_EXACT) { /* no rounded number has a part in either */
-    return stored_order(ctx, x, y);
+    return qn_root_cmp_stored(ctx, x, y);
   }
   int64_t k = rho < 0 ? 8 - rho : 8;
   qn_int gap = qn_int_sub(ctx, qn_root_scaled_(ctx, x, (size_t)k), qn_root_scaled_(ctx, y, (size_t)k)); /* within 4 of the truth */

@@ -55,7 +55,11 @@ int qn_bound_order(qn_scratch *s, const qn_bound *a, const qn_bound *b) {
     return 0;
   }
   const qn_root p = qn_bound_root(s, a), q = qn_bound_root(s, b);
-  return p.q && q.q && !s->ctx.failed ? qn_root_cmp_stored(&s->ctx, p, q) : 0;
+  if (!p.q || !q.q || s->ctx.failed || !(qn_root_rounded(p) || qn_root_rounded(q))) {
+    return 0;
+  }
+  s->rounded_ties = 1;
+  return qn_root_cmp_stored(&s->ctx, p, q);
 }
 
 void qn_bound_between(qn_scratch *s, const qn_bound *a, const qn_bound *b, qn_int *num, qn_int *den) {

@@ -66,6 +66,7 @@ struct qn_scratch {
   qn_line *line;       /* of the memo */
   qn_filter_line filter;
   uint32_t stamp;
+  int rounded_ties;    /* ends were put in order that tie by the rule for rounded numbers */
   qn_memo *memo;       /* by surface */
   uint8_t *range;      /* by half: qn_half_range */
   qn_solved *solved;     size_t solved_count, solved_capacity;

@@ -41,6 +41,7 @@ void qn_solve_begin(qn_scratch *s, qn_line *line) {
     s->stamp = 1;
   }
   s->solved_count = s->root_count = 0;
+  s->rounded_ties = 0;
   qn_filter_line_make(line, &s->filter);
   s->counts.exact_rays += (uint64_t)s->filter.wild;
 }

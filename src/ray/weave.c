@@ -6,6 +6,7 @@
    Between two groups lies a stretch of positive length.
 
    Stretches that end before the range or begin after it are not woven; one that has begun by its beginning begins at -inf. */
+#include "base/limits.h"
 #include "ray/scratch.h"
 
 #include <math.h>
@@ -91,11 +92,28 @@ static int find_events(qn_scratch *s, const qn_bound *from, const qn_bound *to, 
   return any_vague;
 }
 
+/* Where rounded places tie: the end of what ties with one of [at, end), itself or by others. In the order of the stored numbers that is one run; what ties need not be neighbours in it. */
+static size_t all_ties(qn_scratch *s, size_t at, size_t end) {
+  for (size_t next = end; next < s->event_count && qn_scratch_spend(s, next - at, QN_EFFORT_CHANGE); next++) {
+    const qn_bound *b = &s->events[next].at, *last = &s->events[end - 1].at;
+    if (!(b->t - last->t <= b->e + last->e + 0x1p-40 * fabs(last->t))) {
+      break; /* nothing from here on is near */
+    }
+    size_t i = at;
+    while (i < end && qn_bound_cmp(s, &s->events[i].at, b) != 0) {
+      i++;
+    }
+    end = i < end ? next + 1 : end;
+  }
+  return end;
+}
+
 size_t qn_weave_group(qn_scratch *s, size_t at) {
   size_t end = at + 1;
   while (end < s->event_count && qn_bound_cmp(s, &s->events[end - 1].at, &s->events[end].at) == 0) {
     end++;
   }
+  end = s->rounded_ties ? all_ties(s, at, end) : end;
   if (end - at > 1) {
     qn_order_group(s, s->events + at, end - at);
   }
