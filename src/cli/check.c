@@ -279,7 +279,8 @@ const cli_command cli_check_command = {
   "near_pairs (pairs of surfaces that nearly coincide), and with --snap snapped (surfaces that were moved). The first ten\n"
   "pairs are notes too, the smallest gaps first.\n"
   "With --json all goes to standard output as one object: model, status (\"ok\" or what failed), diagnostics, the summary, and all\n"
-  "near and snapped pairs; infinite numbers are the strings \"-inf\" and \"inf\", the box of an empty solid is null.\n",
+  "near and snapped pairs. Its summary has empty and unbounded in place of extent, and bytes, the scene's memory; a model with\n"
+  "errors has none. Infinite numbers are the strings \"-inf\" and \"inf\", the box of an empty solid is null.\n",
   options,
   run,
 };

@@ -89,6 +89,8 @@ static int unknown(const char *word) {
   return cli_try_help(NULL);
 }
 
+static int is_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
+
 int main(int argc, char **argv) {
   keep_standard_streams();
   (void)signal(SIGPIPE, SIG_IGN); /* a reader that went away shows up as an error of write, and is dealt with there */
@@ -97,13 +99,14 @@ int main(int argc, char **argv) {
     cli_error("no command given");
     return cli_try_help(NULL);
   }
-  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || (strcmp(word, "help") == 0 && argc == 2)) {
+  const int help = strcmp(word, "help") == 0;
+  if (is_help(word) || (help && (argc == 2 || is_help(argv[2])))) {
     return print_usage();
   }
   if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
     return print_version();
   }
-  if (strcmp(word, "help") == 0) {
+  if (help) {
     const cli_command *command = find(argv[2]);
     return command ? cli_help(command) : unknown(argv[2]);
   }

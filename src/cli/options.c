@@ -60,7 +60,7 @@ int cli_help(const cli_command *command) {
     put_option(&text, o);
   }
   cli_puts(&text, "\nA MODEL of - is standard input; -- ends options; a negative number is never an option.\n"
-                  "Exit codes: 0 answered; 1 the answer is no (with --exit-code); 2 wrong usage; 3 bad model;\n"
+                  "Exit codes: 0 answered; 1 the answer is no (query --exit-code); 2 wrong usage; 3 bad model;\n"
                   "4 input, output or memory failed.\n");
   cli_out out;
   cli_out_open(&out, NULL);

@@ -22,7 +22,7 @@ static const cli_option options[] = {
   {PROJECTION, 0, "projection", "ortho|persp", "parallel or perspective, the default"},
   {FOV, 0, "fov", "DEG", "the vertical field of view in degrees, above 0 and below 180"},
   {NO_ANTIALIAS, 0, "no-antialias", NULL, "one sample a pixel"},
-  {SAMPLES, 0, "samples", "N", "samples of a pixel at an edge: 4, 9, 16 (the default), 25, ... 256"},
+  {SAMPLES, 0, "samples", "N", "samples of a pixel at an edge: 1, 4, 9, 16 (the default), 25, ... 256"},
   {NO_SHADOWS, 0, "no-shadows", NULL, "lights cast no shadows"},
   {PROGRESS, 0, "progress", NULL, "show progress if standard error is a terminal"},
   CLI_SNAP_OPTION,

@@ -24,6 +24,14 @@ class Help(Case):
             self.assertEqual(run("help", command).out, r.out)
             self.assertEqual(run(command, "-h").out, r.out)
 
+    def test_help_of_help(self):
+        for word in ("--help", "-h"):
+            self.assertEqual(self.good(run("help", word)).out, run("--help").out)
+
+    def test_only_query_answers_no(self):
+        for command in COMMANDS:
+            self.assertEqual("  --exit-code " in run(command, "--help").out, command == "query")
+
     def test_every_option_in_the_help_is_taken(self):
         """What the help lists is known, and what takes a value in the help does so."""
         for command in COMMANDS:
