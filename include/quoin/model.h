@@ -16,8 +16,8 @@ typedef uint32_t quoin_node;
 
 typedef enum quoin_op { QUOIN_UNION, QUOIN_DIFFERENCE, QUOIN_INTERSECTION } quoin_op;
 
-/* What to do with $fn on a round primitive. AUTO: 3 <= $fn <= 12 written by the user means that polygon, more is a
-   quality hint and is ignored with a note. */
+/* What to do with $fn on a cylinder or cone. AUTO: $fn from 1 to 12 means that polygon (of at least 3 sides), more is a quality hint and is ignored with a
+   note. HONOUR: every $fn means its polygon. IGNORE: none does. */
 typedef enum quoin_facets { QUOIN_FACETS_AUTO, QUOIN_FACETS_HONOUR, QUOIN_FACETS_IGNORE } quoin_facets;
 
 typedef struct quoin_read_options {
@@ -32,12 +32,13 @@ QUOIN_API quoin_read_options quoin_read_options_default(void);
 QUOIN_API quoin_status quoin_model_new(const quoin_allocator *allocator, quoin_model **out);
 QUOIN_API void quoin_model_free(quoin_model *model); /* null is allowed */
 
-/* Reads model text and adds its solids under `parent`. `name` stands in diagnostics. options may be null.
-   QUOIN_E_MODEL: the text has errors, all of which are among the diagnostics; nothing was added.
+/* Reads model text and adds its solids under `parent`. `name` stands in diagnostics ("text" when null). options may be null.
+   QUOIN_E_MODEL: the text has errors, all of which are among the diagnostics; QUOIN_E_LIMIT: one of them is a limit. Nothing was added then, and since the
+   errors stay among the diagnostics the model can no longer be compiled: read into a new one.
    Cost: linear in length. Numbers are read exactly. */
 QUOIN_API quoin_status quoin_model_read_text(quoin_model *model, quoin_node parent, const char *name, const char *text,
                                              size_t length, const quoin_read_options *options);
-/* The same from a file; "-" is standard input. QUOIN_E_IO: it cannot be read; a diagnostic says why. */
+/* The same from a file; "-" is standard input. QUOIN_E_IO: it cannot be read; a diagnostic says why (an error as any other). */
 QUOIN_API quoin_status quoin_model_read_file(quoin_model *model, quoin_node parent, const char *path,
                                              const quoin_read_options *options);
 
@@ -48,7 +49,8 @@ QUOIN_API quoin_status quoin_model_diag(const quoin_model *model, size_t index, 
 /* Building by calls. Every double means exactly itself (0.1 is 0x1.999999999999ap-4); for decimals use
    quoin_model_read_text with a piece of text. Each call adds a node under `parent` (a union, a difference, an
    intersection, a transform, or another wrapper; not a primitive) as its last child and gives its number in *out,
-   which may be null. QUOIN_E_ARGUMENT: a number is not finite, or parent cannot have children. */
+   which may be null. Numbers and names are copied. Angles are degrees. A size of zero or less makes an empty solid, with a warning.
+   QUOIN_E_ARGUMENT: a number is not finite, parent cannot have children, a half-space's normal is zero, or a superquadric's exponent is negative. */
 QUOIN_API quoin_status quoin_add_boolean(quoin_model *m, quoin_node parent, quoin_op op, quoin_node *out);
 QUOIN_API quoin_status quoin_add_translate(quoin_model *m, quoin_node parent, const double v[3], quoin_node *out);
 /* matrix: 3 rows of 4, row after row: x' = M x + t. A singular one makes its subtree empty, with a warning. */
@@ -57,6 +59,7 @@ QUOIN_API quoin_status quoin_add_multmatrix(quoin_model *m, quoin_node parent, c
 QUOIN_API quoin_status quoin_add_rotate(quoin_model *m, quoin_node parent, const double degrees[3], quoin_node *out);
 QUOIN_API quoin_status quoin_add_scale(quoin_model *m, quoin_node parent, const double v[3], quoin_node *out);
 QUOIN_API quoin_status quoin_add_color(quoin_model *m, quoin_node parent, const double rgba[4], quoin_node *out);
+/* name: UTF-8, which is not checked; quoin_model_write_tree's text does not read back with another. */
 QUOIN_API quoin_status quoin_add_name(quoin_model *m, quoin_node parent, const char *name, quoin_node *out);
 
 QUOIN_API quoin_status quoin_add_sphere(quoin_model *m, quoin_node parent, double r, quoin_node *out);

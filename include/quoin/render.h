@@ -45,10 +45,11 @@ typedef struct quoin_render_stats {
 } quoin_render_stats;
 
 /* Renders into pixels: height rows of width RGBA bytes, top row first, sRGB, straight alpha; row_bytes apart.
-   stats may be null. The picture does not depend on the number of threads. */
+   stats may be null. The picture does not depend on the number of threads. QUOIN_E_ARGUMENT: no pixels, row_bytes under 4 * width, samples not a square number up
+   to 65536 (with antialias), a camera with no direction or a field of view that is not over 0 and under 180. Not QUOIN_OK: pixels may be partly written. */
 QUOIN_API quoin_status quoin_render(const quoin_scene *scene, const quoin_render_options *options, unsigned char *pixels, size_t row_bytes, quoin_render_stats *stats);
 
-/* Writes RGBA pixels as a PNG file, whole or not at all (a temporary file beside it, then a rename). "-" is standard
+/* Writes RGBA pixels as a PNG file (without alpha where all are opaque), whole or not at all (a temporary file beside it, then a rename). "-" is standard
    output. QUOIN_E_IO: errno tells why. */
 QUOIN_API quoin_status quoin_write_png(const char *path, size_t width, size_t height, const unsigned char *pixels, size_t row_bytes);
 

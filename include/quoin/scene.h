@@ -8,6 +8,8 @@
 extern "C" {
 #endif
 
+/* Threads: any number of them may ask one scene at the same time, each with a quoin_work of its own. What a call writes is to be read after QUOIN_OK only,
+   unless the call says otherwise. Texts live as long as the scene, those of a list as long as the list. */
 typedef struct quoin_scene quoin_scene; /* immutable; shared by any number of threads */
 typedef struct quoin_work quoin_work;   /* one thread's scratch for one scene */
 
@@ -15,13 +17,13 @@ typedef struct quoin_compile_options {
   unsigned threads;        /* 0: as many as the machine has */
   quoin_progress progress; /* report may be null */
   const char *snap;        /* a decimal, 0 or more: surfaces no further apart are made one (quoin_scene_snapped says which); null, the
-                              default: none, surfaces are as the model says */
+                              default: none, surfaces are as the model says. Read during the call only */
 } quoin_compile_options;
 QUOIN_API quoin_compile_options quoin_compile_options_default(void);
 
 /* Compiles a model: finds equal surfaces, simplifies, bounds, builds the hierarchy. The model is frozen from then on;
    it may be freed before the scene. Warnings are added to the model's diagnostics. options may be null.
-   QUOIN_E_MODEL: the model has errors. QUOIN_E_NUMBER, QUOIN_E_ARGUMENT: `snap` is not a decimal, or is negative.
+   QUOIN_E_MODEL: the model has errors (a text that was refused, a file that could not be read). QUOIN_E_NUMBER, QUOIN_E_ARGUMENT: `snap` is not a decimal, or is negative.
    QUOIN_E_LIMIT: too much of something, also of surfaces near one another for `snap` (a diagnostic says so).
    Cost: n log n in the number of leaves; with `snap` about three times that. */
 QUOIN_API quoin_status quoin_scene_compile(quoin_model *model, const quoin_compile_options *options, quoin_scene **out);
@@ -35,7 +37,8 @@ typedef struct quoin_scene_info {
                                holds it by the same surfaces). Other empty solids are not called so: 0 says nothing */
   int unbounded;            /* no bounding box could be given */
   double box_min[3], box_max[3]; /* holds the solid; infinite where unbounded. A leaf's box is exact, rounded outward, where its frame lies along
-                                    the axes and its sizes are rational, else tight to the last bits; a tree's is the boxes' combination */
+                                    the axes and its sizes are rational, else tight to the last bits, as a half-space's and a superquadric's
+                                    always; a tree's is the boxes' combination */
   size_t memory;            /* bytes held */
   size_t dropped;           /* primitives that were not kept: nothing depends on them */
   size_t gates;             /* of the program: unions and intersections after flattening */
@@ -80,7 +83,7 @@ typedef struct quoin_near {
 typedef struct quoin_near_list quoin_near_list;
 QUOIN_API quoin_status quoin_near_find(const quoin_scene *scene, const char *limit, quoin_near_list **out);
 QUOIN_API void quoin_near_free(quoin_near_list *list); /* null is allowed */
-QUOIN_API size_t quoin_near_count(const quoin_near_list *list);
+QUOIN_API size_t quoin_near_count(const quoin_near_list *list); /* 0 for null */
 QUOIN_API int quoin_near_complete(const quoin_near_list *list); /* 0: there may be more pairs */
 QUOIN_API double quoin_near_limit(const quoin_near_list *list);
 QUOIN_API quoin_status quoin_near_get(const quoin_near_list *list, size_t index, quoin_near *out); /* texts live as long as the list */
@@ -113,7 +116,8 @@ typedef enum quoin_side { QUOIN_OUTSIDE = 0, QUOIN_BOUNDARY = 1, QUOIN_INSIDE = 
 QUOIN_API quoin_status quoin_point_side(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_side *out);
 /* n points, xyz after xyz. */
 QUOIN_API quoin_status quoin_point_sides(const quoin_scene *scene, quoin_work *work, size_t n, const double *points, quoin_side *out);
-/* A point as decimals: "0.1" is 1/10. QUOIN_E_NUMBER when a text is not a finite decimal number. */
+/* A point as decimals: "0.1" is 1/10. QUOIN_E_NUMBER when a text is not a finite decimal number (blanks are not allowed), QUOIN_E_LIMIT when its exponent is
+   beyond 4000 or it is too long. */
 QUOIN_API quoin_status quoin_point_side_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_side *out);
 /* n points as decimals, xyz after xyz. *done (may be null): how many were answered, all n with QUOIN_OK, else those before the point that the
    status is about. */
@@ -124,7 +128,8 @@ QUOIN_API quoin_status quoin_point_sides_text(const quoin_scene *scene, quoin_wo
 QUOIN_API quoin_status quoin_point_parts(const quoin_scene *scene, quoin_work *work, const double point[3], quoin_part *parts, size_t size, size_t *count);
 QUOIN_API quoin_status quoin_point_parts_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_part *parts, size_t size, size_t *count);
 
-/* A ray: o + t d. d need not be a unit vector and t is in its units. Answers lie in [from, to]; either may be infinite. */
+/* A ray: o + t d. d need not be a unit vector and t is in its units. Answers lie in [from, to]; either may be infinite. QUOIN_E_ARGUMENT: o or d is not finite, d is zero,
+   from or to is a nan, from is inf, to is -inf, or from > to. */
 typedef struct quoin_ray {
   double o[3], d[3];
   double from, to;
@@ -167,7 +172,7 @@ QUOIN_API quoin_status quoin_ray_intervals_many_text(const quoin_scene *scene, q
                                                      const char *to, unsigned want, int (*each)(void *user, size_t i, const quoin_intervals *answer),
                                                      void *user);
 
-/* The first boundary at or after from (and not after to). */
+/* The first boundary at or after from (and not after to). Not found: t, point, normal and uv are 0, part is QUOIN_NO_PART. */
 typedef struct quoin_hit {
   int found;
   int leaving;      /* the ray was inside before it: it leaves there */
@@ -191,7 +196,7 @@ typedef struct quoin_spot {
 
 enum { QUOIN_WANT_T = 2 };
 
-/* The first boundaries of n rays, without what a picture wants of them: several times as fast as quoin_first_hits. Which surface is met is exact. t is correctly
+/* The first boundaries of n rays, without what a picture wants of them: some two times as fast as quoin_first_hits. Which surface is met is exact. t is correctly
    rounded when want has QUOIN_WANT_T; else it is only near the true parameter (an error that is far below the distance to any other boundary,
    but not the same on every machine). Neighbours in the array that go the same way are the fastest, 64 at a time. Threads: one work each. */
 QUOIN_API quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out);

@@ -33,8 +33,9 @@ QUOIN_API const char *quoin_status_text(quoin_status status);
 /* The library's version, "0.1.0". */
 QUOIN_API const char *quoin_version(void);
 
-/* A caller's allocator. All three functions are called from any thread that uses the objects made with it, with the
-   size that was asked for. alloc and resize return null to refuse. A null quoin_allocator pointer means malloc (and large pages).
+/* A caller's allocator. All three functions are called from any thread that uses the objects made with it, the library's own among them, so also at the
+   same time; with the size that was asked for, never 0, and never a null block. Blocks are aligned as malloc's. alloc and resize return null to refuse;
+   the block of a refused resize stays as it was. alloc null: malloc, and only `limit` counts. A null quoin_allocator pointer means malloc (and large pages).
    GMP and MPFR use their own allocator for temporaries while a model is being read. */
 typedef struct quoin_allocator {
   void *(*alloc)(void *user, size_t size);
