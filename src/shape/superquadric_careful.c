@@ -195,7 +195,7 @@ static void refine(curve *c, double *lo, double *hi, int sign_lo) {
     near = fmax(QN_STEP * fabs(t) + QN_U * QN_U * c->size + DBL_TRUE_MIN, 2 * s.error / fabs(s.slope));
     if (sign == 0 || moved <= near) {
       if (!(near < *hi - *lo)) { /* no slope to judge by */
-        near = QN_STEP * fabs(t) + QN_SUPER_FINE * c->size;
+        near = QN_STEP * fabs(t) + QN_SUPER_FINE * c->size + DBL_TRUE_MIN;
       }
       close_in(c, lo, hi, sign_lo, t, near);
       break;
