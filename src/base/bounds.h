@@ -71,6 +71,8 @@
 #define QN_SUPER_QUOTIENT 0x1p+9
 #define QN_SUPER_SHORT 0x1p-200
 #define QN_SUPER_LONG 0x1p+200
+/* A line whose largest |D_i| is below 2^-QN_SUPER_USUAL or beyond 2^QN_SUPER_USUAL is scaled to about 1. */
+#define QN_SUPER_USUAL 64
 /* Bits of MPFR along a ray: a sign is given when |G - 1| passes the bound above with 2^-QN_SUPER_BITS for u. */
 #define QN_SUPER_BITS 256
 /* A line in the solid's frame, as pairs of doubles: |O_i - (O_i^ + o_i^)| <= QN_SUPER_FRAME times the sum of its terms' sizes, D_i alike. A coordinate O_i + t D_i of these is

@@ -136,11 +136,12 @@ enum { SUPER_ROOTS = 32 };
 typedef struct super_asked {
   qn_scratch *s;
   const qn_super_form *form;
+  int begun, power; /* begun: in doubles, whose t's are kept; else 2^power times t is asked for */
 } super_asked;
 
 /* The line in the solid's frame: X_i = row_i . ((origin + t direction)/w, 1). */
 static int super_exactly(void *user, qn_super_exact *out) {
-  const super_asked *a = user;
+  super_asked *a = user;
   qn_ctx *ctx = &a->s->ctx;
   qn_line *line = a->s->line;
   a->s->counts.exact_signs++;
@@ -155,6 +156,7 @@ static int super_exactly(void *user, qn_super_exact *out) {
     out->O[i] = qn_num_dot(ctx, 4, a->form->row[i], o);
     out->D[i] = qn_num_dot(ctx, 3, a->form->row[i], d);
   }
+  a->power = a->begun || ctx->failed ? 0 : qn_super_exact_scale(out);
   return !ctx->failed;
 }
 
@@ -165,13 +167,13 @@ static uint32_t solve_super(qn_scratch *s, uint32_t surface) {
     qn_scratch_fail(s, status);
     return QN_NO_SOLVED;
   }
-  super_asked asked = {s, form};
   qn_super_frame frame;
   double found[SUPER_ROOTS][2], places[SUPER_ROOTS];
   int made = !s->line->rounded && qn_super_frame_make(&form->rows, s->line->o, s->line->d, &frame);
+  super_asked asked = {s, form, made, 0};
   size_t n = qn_superquadric_roots(made ? &frame : NULL, super_exactly, &asked, found, SUPER_ROOTS), kept = 0;
   for (size_t i = 0; i < n; i++) { /* S10: a place is its double; a pair in one double is no stretch */
-    double t = found[i][0] + 0.5 * (found[i][1] - found[i][0]);
+    double t = fmax(-DBL_MAX, fmin(ldexp(found[i][0] + 0.5 * (found[i][1] - found[i][0]), -asked.power), DBL_MAX));
     if (kept && places[kept - 1] == t) {
       kept--;
     } else {

@@ -37,5 +37,7 @@ void qn_super_frame_from_exact(const qn_super_exact *line, qn_super_frame *out);
 /* The same line begun at t: X(t + s) = O' + s D. The first in doubles with their error (docs/bounds.md, QN_SUPER_FRAME), infinite out of their range. */
 void qn_super_frame_begin(const qn_super_frame *frame, double t, qn_super_frame *out);
 void qn_super_exact_begin(qn_super_exact *line, double t);
+/* Takes D, where its largest coordinate is beyond 2^QN_SUPER_USUAL or its reciprocal, times 2^-k so that it is about 1: the line's t are then 2^k times what they were. Returns k, else 0. */
+int qn_super_exact_scale(qn_super_exact *line);
 
 #endif

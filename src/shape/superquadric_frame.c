@@ -7,7 +7,9 @@
 #include "base/bounds.h"
 #include "number/dd.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 
 /* A number's half in 26 bits, whose products with another are exact, as those of the rest (Dekker 1971). */
 static double top_of(double a) {
@@ -77,7 +79,8 @@ int qn_super_frame_make(const qn_super_rows *rows, const double o[3], const doub
   }
   out->e[0] = rows->e[0], out->e[1] = rows->e[1];
   out->n[0] = rows->n[0], out->n[1] = rows->n[1];
-  return fit;
+  const double most = fmax(fabs(out->D[0][0]), fmax(fabs(out->D[1][0]), fabs(out->D[2][0])));
+  return fit && most >= ldexp(1, -QN_SUPER_USUAL) && most <= ldexp(1, QN_SUPER_USUAL);
 }
 
 void qn_super_frame_begin(const qn_super_frame *frame, double t, qn_super_frame *out) {
@@ -96,6 +99,30 @@ void qn_super_exact_begin(qn_super_exact *line, double t) {
   for (int i = 0; i < 3; i++) {
     line->O[i] = qn_num_add(line->ctx, line->O[i], qn_num_mul(line->ctx, line->D[i], from));
   }
+}
+
+/* A number's power of two, about; INT_MIN: it is 0. */
+static int power_of(qn_ctx *ctx, qn_num a) {
+  const qn_rat r = qn_num_rat(ctx, a);
+  return qn_num_is_zero(a) ? INT_MIN : (int)qn_int_bits(r.num) - (int)qn_int_bits(r.den);
+}
+
+int qn_super_exact_scale(qn_super_exact *line) {
+  qn_ctx *ctx = line->ctx;
+  int most = INT_MIN;
+  for (int i = 0; i < 3; i++) {
+    const int power = power_of(ctx, line->D[i]);
+    most = power > most ? power : most;
+  }
+  if (most == INT_MIN || abs(most) <= QN_SUPER_USUAL || ctx->failed) {
+    return 0;
+  }
+  const qn_int one = qn_int_from(ctx, 1), much = qn_int_shl(ctx, one, (size_t)abs(most));
+  const qn_num by = most < 0 ? qn_num_from_rat(ctx, much, one, 0) : qn_num_from_rat(ctx, one, much, 0);
+  for (int i = 0; i < 3; i++) {
+    line->D[i] = qn_num_mul(ctx, line->D[i], by);
+  }
+  return most;
 }
 
 /* A number as a pair, and what it leaves: 2^-106 of it, and what underflows. */

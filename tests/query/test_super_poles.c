@@ -319,8 +319,71 @@ static void rulings(void **state) {
   assert_true(inside > share_min(200) && outside > share_min(200) && places > share_min(2000));
 }
 
+/* Directions from the shortest to the longest there are: t's are near the ends of the doubles' range. */
+static void lengths(void **state) {
+  (void)state;
+  static const char *const radii[] = {"0.2", "1.3", "7", "1"}, *const exponents[] = {"0.5", "3", "0.3", "1", "2", "0.7", "2.5", "6", "0.001"};
+  uint64_t seed = 11;
+  int census[3] = {0, 0, 0};
+  for (int round = 0; round < share_of(1500); round++) {
+    uint64_t x[9];
+    for (int i = 0; i < 9; i++) {
+      seed = seed * 6364136223846793005u + 1442695040888963407u;
+      x[i] = seed >> 40;
+    }
+    solid s = {.centre = {"0", "-0.5", "0.3"}, .e = exponents[x[0] % 9], .n = exponents[x[1] % 9]};
+    if (x[0] % 9 == 3 && x[1] % 9 == 3) {
+      continue; /* an ellipsoid: exact */
+    }
+    double o[3], radius[3];
+    for (size_t i = 0; i < 3; i++) {
+      s.radius[i] = radii[x[2 + i] % 4], radius[i] = atof(s.radius[i]);
+      o[i] = atof(s.centre[i]) + (x[5] >> i & 1 ? 0 : radius[i] * ldexp((double)(x[6] % 1024) - 512, -10 - (int)i));
+    }
+    const int axis = (int)(x[7] % 3), power = (int)(x[8] % 2036) - 1016;
+    o[axis] += (x[5] & 8 ? 2 : 0.25) * radius[axis];
+    ask a;
+    open_solid(&a, &s);
+    census[judged(&a, &s, o, axis, ldexp((x[5] & 16 ? 0.8 : -1) * radius[axis], power)) + 1]++;
+    ask_close(&a);
+  }
+  assert_true(census[1] > share_min(20) && census[2] > share_min(700));
+}
+
+/* Rays that were answered as misses, refused, or not at all. */
+static void lengths_known(void **state) {
+  (void)state;
+  static const struct { solid s; double o[3], d[3]; } cases[] = {
+    {{{"0", "0", "0"}, {"1", "1", "1"}, "0.25", "4"}, {0.25, 0.7, 0.3}, {0, 1e308, 1e308}},
+    {{{"0", "0", "0"}, {"1", "1", "1"}, "0.25", "0.5"}, {1e-17, 0.3, 0.7}, {1e-300, 0, -1e-160}},
+    {{{"0", "0", "0"}, {"1", "1", "1"}, "0.25", "4"}, {0.1, 0.1, 0.1}, {1e308, 1.5e308, 0}},
+    {{{"0", "0", "0"}, {"0.3", "1", "1"}, "0.5", "2.5"}, {1e-17, 0.3, 0.7}, {1e-300, 0, -1e-160}},
+    {{{"0", "0", "0"}, {"1", "1", "0.3"}, "0.001", "3"}, {1e-17, -1e-9, 0.25}, {-1e-160, -1e-160, 1e-300}}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const quoin_ray ray = {{cases[i].o[0], cases[i].o[1], cases[i].o[2]}, {cases[i].d[0], cases[i].d[1], cases[i].d[2]}, -INFINITY, INFINITY};
+    ask a;
+    open_solid(&a, &cases[i].s);
+    quoin_intervals found;
+    assert_int_equal(quoin_ray_intervals(a.scene, a.work, &ray, 0, &found), QUOIN_OK);
+    assert_int_equal(found.count, 1);
+    const double t[2] = {found.inside[0].enter.t, found.inside[0].leave.t}, off = 0x1p-40 * (t[1] - t[0]);
+    assert_true(sign_at(&cases[i].s, ray.o, ray.d, t[0] - off) > 0 && sign_at(&cases[i].s, ray.o, ray.d, t[0] + off) < 0);
+    assert_true(sign_at(&cases[i].s, ray.o, ray.d, t[1] - off) < 0 && sign_at(&cases[i].s, ray.o, ray.d, t[1] + off) > 0);
+    ask_close(&a);
+  }
+  const solid s = cases[0].s;
+  const quoin_ray slow = {{0.1, 0.1, 0.1}, {1e-310, 2e-310, 0}, 0, 1e300}; /* it does not come out within the doubles' range */
+  uint8_t blocked = 0;
+  ask a;
+  open_solid(&a, &s);
+  assert_int_equal(quoin_rays_blocked(a.scene, a.work, 1, &slow, NULL, &blocked), QUOIN_OK);
+  assert_int_equal(blocked, 1);
+  ask_close(&a);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known), cmocka_unit_test(gap), cmocka_unit_test(poles), cmocka_unit_test(from_afar), cmocka_unit_test(rulings)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known),     cmocka_unit_test(gap),     cmocka_unit_test(poles),
+                                     cmocka_unit_test(from_afar), cmocka_unit_test(rulings), cmocka_unit_test(lengths), cmocka_unit_test(lengths_known)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   mpfr_free_cache();
   return failed;
