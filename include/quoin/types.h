@@ -45,7 +45,7 @@ typedef struct quoin_allocator {
   size_t limit; /* bytes in use at once, after which allocation is refused; 0: none */
 } quoin_allocator;
 
-/* Called now and then during long work, from the calling thread only. done runs from 0 to 1. Return non-zero to stop:
+/* Called during long work, once at least, from the calling thread only. done runs from 0 to 1. Return non-zero to stop:
    the work ends with QUOIN_E_CANCELLED. */
 typedef struct quoin_progress {
   int (*report)(void *user, double done);

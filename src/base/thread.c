@@ -27,6 +27,10 @@ unsigned qn_thread_count(unsigned wish) {
 
 typedef qn_crew_worker worker;
 
+static int told_to_stop(const quoin_progress *progress, double done) {
+  return progress && progress->report && progress->report(progress->user, done);
+}
+
 static void work(worker *w, const quoin_progress *progress) {
   qn_crew *p = w->crew;
   while (!atomic_load_explicit(&p->stop, memory_order_relaxed)) {
@@ -35,7 +39,7 @@ static void work(worker *w, const quoin_progress *progress) {
       return;
     }
     quoin_status s = p->body(p->user, w->number, i);
-    if (s == QUOIN_OK && progress && progress->report && progress->report(progress->user, (double)i / (double)p->n)) {
+    if (s == QUOIN_OK && told_to_stop(progress, (double)i / (double)p->n)) {
       s = QUOIN_E_CANCELLED;
     }
     if (s != QUOIN_OK) {
@@ -85,6 +89,9 @@ void qn_crew_open(qn_crew *c) {
 quoin_status qn_crew_run(qn_crew *c, unsigned threads, size_t n, quoin_status (*body)(void *, unsigned, size_t), void *user, const quoin_progress *progress) {
   threads = threads > QN_MAX_THREADS ? QN_MAX_THREADS : threads < 1 ? 1 : threads;
   threads = threads > n ? (n ? (unsigned)n : 1) : threads;
+  if (told_to_stop(progress, 0)) { /* the caller is asked once at least, also where other threads take every i */
+    return QUOIN_E_CANCELLED;
+  }
   pthread_mutex_lock(&c->lock); /* no pass is open: nobody but this thread looks at what is set here */
   c->n = n, c->body = body, c->user = user;
   atomic_store_explicit(&c->next, 0, memory_order_relaxed);

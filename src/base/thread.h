@@ -16,7 +16,7 @@ unsigned qn_thread_count(unsigned wish);
 
 /* Calls body(user, thread, i) once for each i in [0, n), i in increasing order per thread, on up to `threads` threads of
    which the calling one is number 0. Stops handing out work when a body returns other than QUOIN_OK, and returns the
-   status of the lowest such i that ran; calls the progress report (may be null) from the calling thread. If a thread cannot be
+   status of the lowest such i that ran; calls the progress report (may be null) from the calling thread, once before the first body. If a thread cannot be
    started the others do its work. */
 quoin_status qn_parallel(unsigned threads, size_t n, quoin_status (*body)(void *user, unsigned thread, size_t i), void *user,
                          const quoin_progress *progress);

@@ -78,9 +78,13 @@ static void progress_comes_from_the_caller_and_stops(void **state) {
     quoin_progress p = {report, &t};
     assert_int_equal(qn_parallel(widths[k], N, body, &t, &p), QUOIN_OK);
     assert_int_equal(t.count, N);
+    /* asked before anything is done, so that it is asked also where the other threads take everything */
+    t = (tally){.threads = QN_MAX_THREADS, .fail_from = N, .caller = pthread_self(), .stop_at = 1};
+    assert_int_equal(qn_parallel(widths[k], N, body, &t, &p), QUOIN_E_CANCELLED);
+    assert_int_equal(t.count, 0);
   }
   static tally t;
-  t = (tally){.threads = 1, .fail_from = N, .caller = pthread_self(), .stop_at = 20};
+  t = (tally){.threads = 1, .fail_from = N, .caller = pthread_self(), .stop_at = 21};
   quoin_progress p = {report, &t};
   assert_int_equal(qn_parallel(1, N, body, &t, &p), QUOIN_E_CANCELLED);
   assert_int_equal(t.count, 20);
