@@ -8,6 +8,35 @@
 
 #include <math.h>
 
+static int has_direction(const double g[3]) {
+  return g[0] * 0 + g[1] * 0 + g[2] * 0 == 0 && (g[0] != 0 || g[1] != 0 || g[2] != 0);
+}
+/* A power of two that brings x near to 1. */
+static double down(double x) {
+  return x > 0 && isfinite(x) ? ldexp(1, -(int)fmax(-1000, fmin(1000, ilogb(x)))) : 1;
+}
+
+/* The gradient at y, or a multiple of it: with the rows times `rows`, y and the constants times `place`. (A superquadric's slope is no multiple of one elsewhere; its X
+   is about 1 at most anyway.) */
+QN_INLINE void slope_at(const qn_quadric_shadow *q, int super, const double y[3], double rows, double place, double g[3]) {
+  const double to_x = super ? 1 : rows, to_y = super ? 1 : place;
+  double X[3], slope[3];
+  for (int i = 0; i < 3; i++) {
+    const double *row = q->row[i];
+    X[i] = (((row[0] * to_x) * (y[0] * to_y) + (row[1] * to_x) * (y[1] * to_y)) + (row[2] * to_x) * (y[2] * to_y)) + row[3] * to_x * to_y;
+    slope[i] = q->s[i] * X[i] + (i == 2 ? q->l * to_x * to_y : 0);
+  }
+  if (super) {
+    qn_superquadric_gradient(q->s[0], q->s[1], X, slope);
+  }
+  g[0] = g[1] = g[2] = 0;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      g[j] += slope[i] * (q->row[i][j] * rows);
+    }
+  }
+}
+
 void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const double y[3], double g[3]) {
   g[0] = g[1] = g[2] = 0;
   if (half->kind == QN_PLANE) {
@@ -17,25 +46,23 @@ void qn_half_gradient(const quoin_scene *scene, const qn_half *half, const doubl
     return;
   }
   const qn_quadric_shadow *q = &scene->quadrics[half->shadow];
-  double X[3], slope[3];
-  for (int i = 0; i < 3; i++) {
-    X[i] = ((q->row[i][0] * y[0] + q->row[i][1] * y[1]) + q->row[i][2] * y[2]) + q->row[i][3];
-    slope[i] = q->s[i] * X[i] + (i == 2 ? q->l : 0);
-  }
-  if (half->kind == QN_SUPER_BODY) {
-    qn_superquadric_gradient(q->s[0], q->s[1], X, slope);
-  }
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) {
-      g[j] += slope[i] * q->row[i][j];
+  slope_at(q, half->kind == QN_SUPER_BODY, y, 1, 1, g);
+  if (!has_direction(g)) { /* beyond the doubles, or below: powers of two are taken out of the rows, and of places where the slope is a multiple of */
+    double rows = 0, place = 0;
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) {
+        rows = fmax(rows, fabs(q->row[i][j]));
+      }
+      place = fmax(place, fabs(y[i]));
     }
+    slope_at(q, half->kind == QN_SUPER_BODY, y, down(rows), down(place), g);
   }
 }
 
 /* To unit length, turned by way; left at zero when it has no direction. */
 QN_INLINE void unit(double g[3], double way) {
   double most = fmax(fabs(g[0]), fmax(fabs(g[1]), fabs(g[2])));
-  if (!(most > 0) || !isfinite(most)) {
+  if (!has_direction(g)) {
     g[0] = g[1] = g[2] = 0;
     return;
   }

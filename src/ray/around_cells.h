@@ -107,7 +107,7 @@ int qn_cells_spend(qn_cells *cells, size_t count, unsigned each);
 /* --- a walk along a line of parameters with marks at roots (around_walk.c) --- */
 typedef struct qn_walk_mark { qn_root root; uint32_t tag; } qn_walk_mark;
 void qn_walk_sort(qn_cells *cells, size_t n, qn_walk_mark *marks); /* stable */
-/* The marks at the place of marks[first] end before the index returned. */
+/* The marks at the place of marks[first], each tied with the one before it, end before the index returned. */
 size_t qn_walk_group(qn_ctx *ctx, size_t n, const qn_walk_mark *marks, size_t first);
 /* A rational between marks[at - 1] and marks[at], which are at different places. */
 void qn_walk_between(qn_ctx *ctx, const qn_walk_mark *marks, size_t at, qn_int *num, qn_int *den);

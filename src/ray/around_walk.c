@@ -5,6 +5,12 @@
 
 #include <string.h>
 
+/* Ties of rounded roots (design S2) are not transitive: the stored numbers put them in an order that is. */
+static int root_order(qn_ctx *ctx, qn_root x, qn_root y) {
+  const int order = qn_root_cmp(ctx, x, y);
+  return order || !(qn_root_rounded(x) || qn_root_rounded(y)) ? order : qn_root_cmp_stored(ctx, x, y);
+}
+
 void qn_walk_sort(qn_cells *cells, size_t n, qn_walk_mark *marks) {
   qn_ctx *ctx = cells->ctx;
   qn_walk_mark *other = qn_arena_take(&ctx->arena, (n + 1) * sizeof *other);
@@ -18,7 +24,7 @@ void qn_walk_sort(qn_cells *cells, size_t n, qn_walk_mark *marks) {
       size_t middle = begin + width, end = middle + width < n ? middle + width : n, left = width, i = 0, j = middle, k = begin;
       memcpy(other, marks + begin, left * sizeof *marks);
       while (i < left && j < end) {
-        marks[k++] = qn_root_cmp(ctx, other[i].root, marks[j].root) <= 0 ? other[i++] : marks[j++];
+        marks[k++] = root_order(ctx, other[i].root, marks[j].root) <= 0 ? other[i++] : marks[j++];
       }
       memcpy(marks + k, other + i, (left - i) * sizeof *marks);
     }
@@ -28,7 +34,7 @@ void qn_walk_sort(qn_cells *cells, size_t n, qn_walk_mark *marks) {
 
 size_t qn_walk_group(qn_ctx *ctx, size_t n, const qn_walk_mark *marks, size_t first) {
   size_t end = first + 1;
-  while (end < n && qn_root_cmp(ctx, marks[first].root, marks[end].root) == 0) {
+  while (end < n && qn_root_cmp(ctx, marks[end - 1].root, marks[end].root) == 0) {
     end++;
   }
   return end;

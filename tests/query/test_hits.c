@@ -205,9 +205,35 @@ static void extremes(void **state) {
   ask_close(&a);
 }
 
+/* Normals where the gradient is beyond the doubles, or below: far out on two planes that are one quadric, and on solids that are hardly there. */
+static void sizes(void **state) {
+  (void)state;
+  const double inf = strtod("inf", NULL), half = sqrt(0.5);
+  ask a;
+  ask_open(&a, "scale([1e-10, 1e-10, 1]) quadric([1, -1, 0, 0, 0, 0, 0, 0, 0, 0]);"); /* |x| <= |y| */
+  quoin_hit hit = shoot(&a, 0, 1e300, 0, 1e300, 0, 0, 0, inf);
+  assert_true(hit.found && hit.leaving && hit.t == 1);
+  assert_true(fabs(hit.normal[0] - half) < 1e-15 && fabs(hit.normal[1] + half) < 1e-15 && hit.normal[2] == 0);
+  ask_close(&a);
+  static const char *const small[] = {"ellipsoid([1e-200, 1e-200, 2e-200]);", "scale(1e-200) ellipsoid([1, 1, 2]);", "scale([1, 1, 2]) sphere(1e-200);", "superquadric([1e-200, 1e-200, 2e-200], 1, 1);",
+                                      "superquadric([1e-200, 1e-200, 2e-200], 0.5, 1.5);"};
+  for (size_t k = 0; k < sizeof small / sizeof *small; k++) {
+    ask_open(&a, small[k]);
+    hit = shoot(&a, 0, 0, 4e-200, 0, 0, -1e-200, 0, inf);
+    assert_true(hit.found && !hit.leaving);
+    expect_normal(&hit, 0, 0, 1);
+    ask_close(&a);
+  }
+  ask_open(&a, "scale(1e200) ellipsoid([1, 1, 2]);");
+  hit = shoot(&a, 0, 0, 4e200, 0, 0, -1e200, 0, inf);
+  assert_true(hit.found && !hit.leaving && hit.t == 2);
+  expect_normal(&hit, 0, 0, 1);
+  ask_close(&a);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(faces), cmocka_unit_test(rounds), cmocka_unit_test(balls), cmocka_unit_test(random_hits), cmocka_unit_test(arguments), cmocka_unit_test(extremes),
+    cmocka_unit_test(faces), cmocka_unit_test(rounds), cmocka_unit_test(balls), cmocka_unit_test(random_hits), cmocka_unit_test(arguments), cmocka_unit_test(extremes), cmocka_unit_test(sizes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
