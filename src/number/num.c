@@ -69,6 +69,9 @@ static int demoted(qn_ctx *ctx, qn_int num, qn_int den, qn_num *out) {
   size_t dz = qn_int_trailing_zeros(den), nz = qn_int_trailing_zeros(num);
   int64_t df = 0, nf = 0;
   if (qn_int_bits(den) - dz > 1) {
+    if (qn_int_bits(num) - nz > 64) {
+      return 0; /* beside fives below there are none above: its size is what it is */
+    }
     qn_int odd = qn_int_shr(ctx, den, dz);
     if (odd.n == 0 || mpn_mod_1(odd.d, odd.n, 5) != 0) {
       return 0;

@@ -19,6 +19,7 @@
 #include "shape/outward.h"
 #include "shape/prim.h"
 #include "shape/super_line.h"
+#include "shape/super_long.h"
 
 #include <string.h>
 
@@ -33,6 +34,7 @@ typedef struct curve {
   double off[3], size; /* off: what the frame's pairs leave of a coordinate; size: the longest stretch of such a line in the box */
   int convex, straight; /* straight: G is linear on every piece */
   const qn_super_exact *exact;
+  const qn_super_long *whole; /* the same, where its numbers are long; or null */
   qn_super_mp mp[2]; /* of QN_SUPER_BITS/2 and QN_SUPER_BITS bits */
   int mp_ready[2];
   known kept[KEPT];   /* by t; t nan: empty */
@@ -89,7 +91,7 @@ static int finely(curve *c, int level, double t, int *slope) {
   qn_num at[2] = {qn_num_from_double(ctx, t), QN_NUM_ONE};
   for (int i = 0; i < 3; i++) {
     const qn_num line[2] = {c->exact->D[i], c->exact->O[i]};
-    qn_super_mp_set(ctx, mp->x[i], qn_num_dot(ctx, 2, line, at));
+    c->whole ? qn_super_long_at(ctx, c->whole, i, t, mp->x[i]) : qn_super_mp_set(ctx, mp->x[i], qn_num_dot(ctx, 2, line, at));
   }
   int sign = qn_super_mp_sign(mp);
   if (slope) {
@@ -525,9 +527,10 @@ static void upright(curve *c, double a, double b, places *p) {
   flat.O[2] = flat.D[2] = QN_NUM_ZERO;
   const double m = -qn_num_to_double(qn_num_div(ctx, c->exact->O[2], c->exact->D[2]));
   const qn_super_exact *line = c->exact;
-  c->exact = &flat;
+  const qn_super_long *whole = c->whole;
+  c->exact = &flat, c->whole = NULL;
   const int least = fine_sign(c, 0, NULL);
-  c->exact = line;
+  c->exact = line, c->whole = whole;
   if (least < 0 && between(a, m, b) && sign_at(c, m) < 0) {
     place(p, a, 1);
     place(p, m, -1);
@@ -544,6 +547,8 @@ size_t qn_super_careful(const qn_super_exact *line, double (*roots)[2], size_t m
     return 0;
   }
   line = &own;
+  qn_super_long whole;
+  c.whole = qn_super_long_make(line, &whole) ? &whole : NULL;
   for (int i = 0; i < KEPT; i++) {
     c.kept[i].t = NAN;
   }
