@@ -178,7 +178,12 @@ QN_INLINE vm plan_holds(const planning *p, const qn_span_plan *plan, vd toleranc
     const uint32_t end = plan->end[i];
     const double *at = p->ends[end / END_LEAF] + (end & END_LEAVES) * (uint32_t)QN_W;
     const vd next = vload(at);
-    which = vand(which, QN_UNLIKELY(end & END_TIED) ? vsame(vload(at + ENTERS_AT), vload(before + ENTERS_AT), MERGE_SAME) : vlt(tolerance, vsub(next, t)));
+    const vm apart = vlt(tolerance, vsub(next, t));
+    if (QN_UNLIKELY(end & END_TIED)) { /* ends that are not there have one name, and may lie on either side */
+      which = vand(which, vandnot(vsame(vload(at + ENTERS_AT), vload(before + ENTERS_AT), MERGE_SAME), vor(apart, vlt(tolerance, vsub(t, next)))));
+    } else {
+      which = vand(which, apart);
+    }
     t = next, before = at;
   }
   which = vand(which, vlt(t, vset(QN_FAR)));
