@@ -198,6 +198,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
   if (!gaps.empty()) t.census.count("gaps_in_frame", frame);
   std::vector<Ray> rays;
   int bundles = r.range(16, 48); // a model costs as much as a thousand rays
+  Random back(seed ^ 0x6b636162); // of rays asked the other way too, so that bundles are the same with them or without
   const bool wide = o.motif == Style::Wide; // bounds are a packet's: many packets of few rays
   if (wide) bundles = 400;
   for (int k = 0; k < bundles; k++) {
@@ -212,7 +213,16 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     if (way == ManyText)
       for (auto &x : rays) x.from = rays[0].from, x.to = rays[0].to;
     t.census.count("bundle", BUNDLES[kind], n);
-    if (!ask(*b, {rays, way, r.below(3), {}}, line, frame, seed, spots_seed, r, o, t)) return;
+    const int isa = r.below(3);
+    if (!ask(*b, {rays, way, isa, {}}, line, frame, seed, spots_seed, r, o, t)) return;
+    if (back.chance(70)) continue; // the same rays the other way, at once: what was kept of the first must not show
+    for (auto &x : rays) {
+      for (double &d : x.d) d = -d;
+      const double from = x.from;
+      x.from = -x.to, x.to = -from;
+    }
+    t.census.count("bundle", "the other way", n);
+    if (!ask(*b, {rays, way, isa, {}}, line, frame, seed, spots_seed, back, o, t)) return;
   }
   Random g(seed ^ 0x67726964); // of grids, so that bundles are the same with them or without
   for (int k = wide ? 100 : g.range(6, 16); k > 0; k--) {
