@@ -8,6 +8,7 @@ using namespace stress;
 
 struct Totals {
   unsigned long long models = 0, leaves = 0, rays = 0, quick = 0, exact = 0, unjudged = 0, ends = 0, points = 0, wrong = 0, refused = 0, middles = 0, hard_points = 0, undecided = 0;
+  std::vector<Asked> asked; // of the present model
   Census census;
   double asking = 0, quickly = 0, exactly = 0, pointing = 0;
 };
@@ -28,6 +29,7 @@ static void found(Totals &t, const Options &o, Case c, uint64_t model_seed, cons
   std::string again = "stress_rays --leaves " + std::to_string(o.leaves) + (o.motif >= 0 ? " --motif " + std::to_string(o.motif) : "") + " --again " + std::to_string(model_seed);
   fprintf(stderr, "WRONG: %s, %s (%s)\n", what, WAYS[c.way], again.c_str());
   if (t.wrong <= 3) {
+    if (first_wrong(c) < 0) c.before = t.asked; // right when asked alone: what the works have kept matters
     shrink(c, 40);
     std::string path = o.finds + "/rays_" + std::to_string(model_seed) + ".csg", text = report(c, what, again);
     FILE *f = fopen(path.c_str(), "w");
@@ -122,7 +124,6 @@ static void ask_points(Bench &b, uint64_t seed, uint64_t spots_seed, Random &r, 
 }
 
 // Asks for a bundle or a grid and judges every answer. False: one is wrong.
-struct Asked { std::vector<Ray> rays; int way, isa; GridPart grid; };
 static bool ask(Bench &b, const Asked &a, const Line &line, const std::string &frame, uint64_t seed, uint64_t spots_seed, Random &r, const Options &o, Totals &t) {
   const std::vector<Ray> &rays = a.rays;
   const int way = a.way, isa = a.isa;
@@ -169,11 +170,12 @@ static bool ask(Bench &b, const Asked &a, const Line &line, const std::string &f
       if (!again && b.exact_answer.zero_surfaces) t.census.count("line", b.exact_answer.zero_surfaces > 2 ? "in three surfaces or more" : "in two that touch");
     }
     if (e == Wrong) {
-      Case c{b.spec, rays, way, isa, spots_seed, grid};
+      Case c{b.spec, rays, way, isa, spots_seed, grid, {}};
       found(t, o, c, seed, "wrong ray");
       return false;
     }
   }
+  t.asked.push_back(a);
   return true;
 }
 
@@ -194,7 +196,7 @@ static void one_model(uint64_t seed, const Options &o, Totals &t) {
     if (t.refused < 3) fprintf(stderr, "refused (%s): --again %llu\n", e.what(), (unsigned long long)seed);
     return;
   }
-  t.models++, t.leaves += leaves_of(spec);
+  t.models++, t.leaves += leaves_of(spec), t.asked.clear();
   if (!gaps.empty()) t.census.count("gaps_in_frame", frame);
   std::vector<Ray> rays;
   int bundles = r.range(16, 48); // a model costs as much as a thousand rays

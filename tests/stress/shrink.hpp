@@ -6,18 +6,26 @@
 
 
 namespace stress {
+// Rays that are asked together, on the work of an instruction set.
+struct Asked {
+  std::vector<Ray> rays;
+  int way = One, isa = 2;
+  GridPart grid{}; // whose rays they are, when it is asked
+};
 struct Case {
   Spec spec;
   std::vector<Ray> rays;
   int way = One, isa = 2;
   uint64_t spots_seed = 0;
-  GridPart grid{}; // whose rays they are, when it is asked
+  GridPart grid{};
+  std::vector<Asked> before{}; // what was asked on the same works first, where that matters
 };
 
 // The first ray that is answered wrong for certain, or -1.
 inline int first_wrong(const Case &c, std::string *said = nullptr) {
   try {
     Bench b(c.spec, c.spots_seed);
+    for (auto &a : c.before) ask_rays(b.model, b.work(a.isa), a.rays, a.way, a.grid);
     auto replies = ask_rays(b.model, b.work(c.isa), c.rays, c.way, c.grid);
     for (size_t i = 0; i < c.rays.size(); i++) {
       size_t rounded = 0;
@@ -58,6 +66,12 @@ inline void shrink(Case &c, double seconds) {
     c = std::move(x);
     return true;
   };
+  for (size_t half = c.before.size() / 2 + 1; half > 0 && !c.before.empty(); half /= 2)
+    for (size_t i = 0; i + half <= c.before.size();) {
+      Case x = c;
+      x.before.erase(x.before.begin() + (long)i, x.before.begin() + (long)(i + half));
+      if (!keep(x)) i += half;
+    }
   for (int way : {(int)One, (int)Hit}) { // the grid's rays, if asked alone they fail
     Case x = c;
     x.way = way;
@@ -240,12 +254,18 @@ inline std::string report(const Case &c, const std::string &title, const std::st
     for (auto &a : all) w << a.first << " " << a.second[0] << " " << a.second[1] << " " << a.second[2];
     w << " of " << g.width << " x " << g.height << (g.converging ? ", converging" : "") << ": columns " << c.grid.x0 << " to " << c.grid.x1 << ", rows " << c.grid.y0 << " to " << c.grid.y1 << "\n";
   }
-  for (size_t i = 0; i < c.rays.size(); i++) {
-    const Ray &r = c.rays[i];
-    w << "// ray";
-    for (double v : r.o) w << " " << v;
-    for (double v : r.d) w << " " << v;
-    w << "  from " << r.from << " to " << r.to << "\n";
+  auto list = [&](const std::vector<Ray> &rays) {
+    for (auto &r : rays) {
+      w << "// ray";
+      for (double v : r.o) w << " " << v;
+      for (double v : r.d) w << " " << v;
+      w << "  from " << r.from << " to " << r.to << "\n";
+    }
+  };
+  list(c.rays);
+  for (auto &a : c.before) {
+    w << "// asked before on the work of " << ISAS[a.isa] << ": " << WAYS[a.way] << ", " << a.rays.size() << " rays\n";
+    list(a.rays);
   }
   w << "// quoin says: " << said << "\n" << text_of(c.spec);
   return w.str();
