@@ -129,7 +129,7 @@ QUOIN_API quoin_status quoin_point_parts(const quoin_scene *scene, quoin_work *w
 QUOIN_API quoin_status quoin_point_parts_text(const quoin_scene *scene, quoin_work *work, const char *const point[3], quoin_part *parts, size_t size, size_t *count);
 
 /* A ray: o + t d. d need not be a unit vector and t is in its units. Answers lie in [from, to]; either may be infinite. QUOIN_E_ARGUMENT: o or d is not finite, d is zero,
-   from or to is a nan, from is inf, to is -inf, or from > to. */
+   from or to is a nan, from is inf, to is -inf, or from > to; of an array with such a ray nothing that was written is an answer. */
 typedef struct quoin_ray {
   double o[3], d[3];
   double from, to;

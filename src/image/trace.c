@@ -93,6 +93,14 @@ static size_t list_rays(qn_tracer *t, const qn_packet *p, unsigned lane_of[QN_LA
   return n;
 }
 
+typedef struct lanes_seen { const unsigned *lane_of; qn_seen *seen; uint64_t *met; } lanes_seen;
+static quoin_status set_seen(void *user, size_t i, const qn_seen *seen) {
+  const lanes_seen *s = user;
+  s->seen[s->lane_of[i]] = *seen;
+  *s->met |= (uint64_t)(seen->surface != QUOIN_NO_SURFACE) << s->lane_of[i];
+  return QUOIN_OK;
+}
+
 /* The first boundaries of camera rays, which may be too spread out to go as one packet unless they are known to be narrow. */
 static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, qn_seen seen[QN_LANES], uint64_t *met) {
   if (narrow || t->shade->together(p, p->live)) {
@@ -100,13 +108,8 @@ static quoin_status look(qn_tracer *t, qn_packet *p, int narrow, qn_seen seen[QN
   }
   unsigned lane_of[QN_LANES];
   const size_t n = list_rays(t, p, lane_of);
-  const quoin_status status = qn_look(t->work, n, t->alone, t->alone_on, QN_LOOK_T, t->alone_seen);
   *met = 0;
-  for (size_t i = 0; i < n; i++) {
-    seen[lane_of[i]] = t->alone_seen[i];
-    *met |= (uint64_t)(t->alone_seen[i].surface != QUOIN_NO_SURFACE) << lane_of[i];
-  }
-  return status;
+  return qn_look(t->work, n, t->alone, t->alone_on, QN_LOOK_T, set_seen, &(lanes_seen){lane_of, seen, met});
 }
 
 /* The shadow rays that are inside the solid anywhere. */

@@ -34,7 +34,6 @@ typedef struct qn_tracer {
   qn_seen seen[QN_LANES];
   quoin_ray alone[QN_LANES]; /* of packets that are too spread out */
   uint32_t alone_on[QN_LANES];
-  qn_seen alone_seen[QN_LANES];
   uint64_t hits;      /* of the packet traced last: lanes that meet the solid; the others' surface is QUOIN_NO_SURFACE */
   const qn_lamp *shadows_of; /* whose directions stand in `shadows` */
   quoin_work *work;

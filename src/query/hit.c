@@ -114,15 +114,6 @@ static void describe_ball(const quoin_ray *ray, double t, const qn_piece_sphere 
   qn_prims[QN_SPHERE].uv(NULL, 0, NULL, QUOIN_BODY, x, out->uv);
 }
 
-int qn_is_ray(const quoin_ray *ray) {
-  double all = 0, any = 0;
-  for (int i = 0; i < 3; i++) {
-    all += ray->o[i] * 0 + ray->d[i] * 0;
-    any += fabs(ray->d[i]) > 0;
-  }
-  return all == 0 && any > 0 && ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL;
-}
-
 /* What is there, where something is. */
 static quoin_status describe_seen(quoin_work *work, const quoin_ray *ray, const qn_seen *seen, quoin_hit *hit) {
   const quoin_scene *scene = work->scene;
@@ -146,59 +137,45 @@ static quoin_status describe_seen(quoin_work *work, const quoin_ray *ray, const 
   return describe(work, ray, seen->t, seen->leaf, half, seen->leaving, hit);
 }
 
-/* Rays go through packets, a run of QN_LANES at a time; a hit on a surface that one part alone has needs no more than its
-   parameter and surface. */
+typedef struct asked { quoin_work *work; const quoin_ray *rays; quoin_hit *out; } asked;
+
+static quoin_status each_seen(void *user, size_t i, const qn_seen *seen) {
+  const asked *a = user;
+  return describe_seen(a->work, &a->rays[i], seen, &a->out[i]);
+}
+
+static int are_given(const quoin_scene *scene, const quoin_work *work, size_t n, const quoin_ray *rays, const void *out) {
+  return scene && work && work->scene == scene && (n == 0 || (rays && out));
+}
+
 quoin_status quoin_first_hits(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, quoin_hit *out) {
-  if (!scene || !work || work->scene != scene || (n != 0 && (!rays || !out))) {
+  if (!are_given(scene, work, n, rays, out)) {
     return QUOIN_E_ARGUMENT;
   }
-  qn_seen seen[QN_LANES];
-  for (size_t at = 0; at < n; at += QN_LANES) {
-    size_t count = n - at < QN_LANES ? n - at : QN_LANES;
-    for (size_t i = at; i < at + count; i++) {
-      if (!qn_is_ray(&rays[i])) {
-        return QUOIN_E_ARGUMENT;
-      }
-    }
-    quoin_status status = count == 1 ? qn_look_alone(work, &rays[at], QUOIN_NO_SURFACE, QN_LOOK_T, seen) : qn_look(work, count, rays + at, NULL, QN_LOOK_T, seen);
-    for (size_t i = 0; status == QUOIN_OK && i < count; i++) {
-      status = describe_seen(work, &rays[at + i], &seen[i], &out[at + i]);
-    }
-    if (status != QUOIN_OK) {
-      return status;
-    }
-  }
-  return QUOIN_OK;
+  return qn_look(work, n, rays, NULL, QN_LOOK_T, each_seen, &(asked){work, rays, out});
 }
 
 quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const quoin_ray *ray, quoin_hit *out) {
-  return quoin_first_hits(scene, work, 1, ray, out);
-}
-
-/* QUOIN_OK when all are rays. */
-static quoin_status are_rays(const quoin_scene *scene, const quoin_work *work, size_t n, const quoin_ray *rays, const void *out) {
-  if (!scene || !work || work->scene != scene || (n != 0 && (!rays || !out))) {
+  if (!are_given(scene, work, 1, ray, out) || !qn_is_ray(ray)) {
     return QUOIN_E_ARGUMENT;
   }
-  for (size_t i = 0; i < n; i++) {
-    if (!qn_is_ray(&rays[i])) {
-      return QUOIN_E_ARGUMENT;
-    }
-  }
-  return QUOIN_OK;
+  qn_seen seen;
+  const quoin_status status = qn_look_alone(work, ray, QUOIN_NO_SURFACE, QN_LOOK_T, &seen);
+  return status == QUOIN_OK ? describe_seen(work, ray, &seen, out) : status;
 }
 
 quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out) {
-  quoin_status status = are_rays(scene, work, n, rays, out);
+  if (!are_given(scene, work, n, rays, out)) {
+    return QUOIN_E_ARGUMENT;
+  }
   const unsigned look = want & QUOIN_WANT_T ? QN_LOOK_T : 0;
-  if (status != QUOIN_OK || n != 1) {
-    return status == QUOIN_OK ? qn_look_spots(work, n, rays, look, out) : status;
+  if (n != 1) {
+    return qn_look_spots(work, n, rays, look, out);
   }
   qn_seen seen;
-  status = qn_look_alone(work, rays, QUOIN_NO_SURFACE, look | QN_LOOK_SURFACE, &seen);
-  *out = (quoin_spot){seen.t, seen.surface, seen.leaving};
-  if (seen.surface == QUOIN_NO_SURFACE) {
-    *out = (quoin_spot){.surface = QUOIN_NO_SURFACE};
+  const quoin_status status = qn_is_ray(rays) ? qn_look_alone(work, rays, QUOIN_NO_SURFACE, look | QN_LOOK_SURFACE, &seen) : QUOIN_E_ARGUMENT;
+  if (status == QUOIN_OK) {
+    *out = qn_spot_of(&seen);
   }
   return status;
 }
@@ -206,10 +183,7 @@ quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_
 enum { RUN = 4096 }; /* rays between two questions whether to stop */
 
 quoin_status quoin_rays_blocked(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, const quoin_progress *progress, uint8_t *blocked) {
-  quoin_status status = are_rays(scene, work, 0, rays, blocked);
-  if (n != 0 && (!rays || !blocked)) {
-    return QUOIN_E_ARGUMENT;
-  }
+  quoin_status status = are_given(scene, work, n, rays, blocked) ? QUOIN_OK : QUOIN_E_ARGUMENT;
   for (size_t at = 0; at < n && status == QUOIN_OK; at += RUN) {
     if (progress && progress->report && progress->report(progress->user, (double)at / (double)n)) {
       return QUOIN_E_CANCELLED;

@@ -5,6 +5,8 @@
 #include "query/work.h"
 #include "wide/packet.h"
 
+#include <math.h>
+
 /* What a ray meets first. Everything here follows from the ray, its parameter and its surface, so it is the same by
    whatever route the ray was answered. */
 typedef struct qn_seen {
@@ -14,25 +16,40 @@ typedef struct qn_seen {
   uint8_t leaving;
 } qn_seen;
 
+QN_INLINE quoin_spot qn_spot_of(const qn_seen *seen) {
+  /* cppcheck-suppress internalAstError ; it cannot read compound literals after a question mark */
+  return seen->surface == QUOIN_NO_SURFACE ? (quoin_spot){.surface = QUOIN_NO_SURFACE} : (quoin_spot){seen->t, seen->surface, seen->leaving};
+}
+
 enum {
   QN_LOOK_T = 1,       /* t correctly rounded; without it t is only near */
   QN_LOOK_SURFACE = 2  /* the surface that is met is wanted, not the part: of its parts any will do; else the one that the woven path names */
 };
 
-/* The first boundaries of n rays, each with a finite origin and a finite direction that is not zero. Rays that go the same way do best in
-   runs of 64, each run an 8 by 8 tile in the order of wide/packet.h; runs that do not are woven one by one. */
+/* Finite, with a direction and a range. */
+QN_INLINE int qn_is_ray(const quoin_ray *ray) {
+  double all = 0, any = 0;
+  for (int i = 0; i < 3; i++) {
+    all += ray->o[i] * 0 + ray->d[i] * 0;
+    any += fabs(ray->d[i]) > 0;
+  }
+  return all == 0 && any > 0 && ray->from <= ray->to && ray->from < HUGE_VAL && ray->to > -HUGE_VAL;
+}
+
+/* The first boundaries of n rays: calls each(user, i, seen) for every ray in order, until it returns anything but QUOIN_OK; QUOIN_E_ARGUMENT at the first that is no ray, or soon before it. A ray
+   that goes alone is looked at when its turn comes and told of at once: an array that is read far ahead, or answered in passes, has left the nearest cache by then (1 to 3 % of such a ray).
+   Rays that go the same way do best in runs of 64, each run an 8 by 8 tile in the order of wide/packet.h. */
 /* on: null, or for each ray the surface that its start lies on (or QUOIN_NO_SURFACE): a hint that spares a ray that starts at a hit, shifted by
    rounding, a comparison of two nearly equal places. */
-quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen *out);
+typedef quoin_status (*qn_seen_fn)(void *user, size_t i, const qn_seen *seen);
+quoin_status qn_look(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, unsigned want, qn_seen_fn each, void *user);
 
 /* The same for one ray, with the surface that its start lies on, or QUOIN_NO_SURFACE. */
 quoin_status qn_look_alone(quoin_work *work, const quoin_ray *ray, uint32_t on, unsigned want, qn_seen *out);
 
-/* The first boundaries as the public call gives them; runs of 64 that go the same way do best as 8 by 8 tiles, row after row. want: QN_LOOK_T or 0. */
+/* The first boundaries as the public call gives them; runs of 64 that go the same way do best as 8 by 8 tiles, row after row. want: QN_LOOK_T or 0.
+   QUOIN_E_ARGUMENT as of qn_look. */
 quoin_status qn_look_spots(quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out);
-
-/* Finite, with a direction and a range (hit.c). */
-int qn_is_ray(const quoin_ray *ray);
 
 /* Whether each ray is inside the solid anywhere in its range: blocked[i] is 1 or 0 (blocked.c). QUOIN_E_ARGUMENT where one of them is no ray. */
 quoin_status qn_look_blocked(quoin_work *work, size_t n, const quoin_ray *rays, const uint32_t *on, uint8_t *blocked);

@@ -412,6 +412,37 @@ static void many_blocked(void **state) {
   ask_close(&a);
 }
 
+/* One that is no ray, anywhere in an array whose rays go together by 64, by 8, or one by one: all of them are refused. */
+static void not_all_rays(void **state) {
+  (void)state;
+  enum { COUNT = 150 };
+  static quoin_ray rays[COUNT];
+  static quoin_hit hits[COUNT];
+  static quoin_spot spots[COUNT];
+  static uint8_t blocked[COUNT];
+  const double no_ray[] = {NAN, INFINITY};
+  ask a;
+  ask_open(&a, "sphere(1);");
+  for (int spread = 0; spread < 3; spread++) {
+    for (int i = 0; i < COUNT; i++) {
+      const double far = spread < 2 ? 0 : i % 2 ? 3 : -3;
+      rays[i] = (quoin_ray){{0.001 * (i % 8) + (spread > 0) * 0.4 * (i / 8), 0.3, -3}, {far, 0, 6}, 0, HUGE_VAL};
+    }
+    assert_int_equal(quoin_first_hits(a.scene, a.work, COUNT, rays, hits), QUOIN_OK);
+    assert_int_equal(quoin_first_spots(a.scene, a.work, COUNT, rays, QUOIN_WANT_T, spots), QUOIN_OK);
+    assert_int_equal(quoin_rays_blocked(a.scene, a.work, COUNT, rays, NULL, blocked), QUOIN_OK);
+    for (int i = 0; i < COUNT; i++) {
+      const quoin_ray was = rays[i];
+      rays[i].o[i % 3] = no_ray[i & 1];
+      assert_int_equal(quoin_first_hits(a.scene, a.work, COUNT, rays, hits), QUOIN_E_ARGUMENT);
+      assert_int_equal(quoin_first_spots(a.scene, a.work, COUNT, rays, QUOIN_WANT_T, spots), QUOIN_E_ARGUMENT);
+      assert_int_equal(quoin_rays_blocked(a.scene, a.work, COUNT, rays, NULL, blocked), QUOIN_E_ARGUMENT);
+      rays[i] = was;
+    }
+  }
+  ask_close(&a);
+}
+
 static void print_census(const char *title, const char *const *names, const shares *c, size_t n) {
   print_message("%-22s %10s %7s %8s %8s %8s\n", title, "lanes", "found", "leaving", "tied", "given up");
   for (size_t i = 0; i < n; i++) {
@@ -620,7 +651,7 @@ int main(int words, char **word) {
   model_count = words > 1 ? (size_t)strtoull(word[1], NULL, 0) : (size_t)share_from(200, (int)model_count);
   first_seed = words > 2 ? strtoull(word[2], NULL, 0) : first_seed;
   body_count = find_bodies(bodies);
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(balls_of_pixels), cmocka_unit_test(many_blocked), cmocka_unit_test(skipped_packets),
-                                     cmocka_unit_test(random_models)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known_cases), cmocka_unit_test(wide_grids), cmocka_unit_test(balls_of_pixels), cmocka_unit_test(many_blocked), cmocka_unit_test(not_all_rays),
+                                     cmocka_unit_test(skipped_packets), cmocka_unit_test(random_models)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
