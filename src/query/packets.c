@@ -36,7 +36,7 @@ static void patience_learns(qn_patience *p, uint64_t leaves_of_a_ray) {
 /* few: the packet's, where a constant spares what its kind has no need of. */
 QN_INLINE void run(quoin_work *work, qn_packet *packet, int few, qn_packet_hits *hits) {
   const quoin_scene *scene = work->scene;
-  hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
+  hits->found = hits->tied = hits->tied_surface = hits->leaving = hits->far_end = 0, hits->unsure = packet->live;
   if (!scene->normal.made) {
     return;
   }
@@ -49,7 +49,7 @@ QN_INLINE void run(quoin_work *work, qn_packet *packet, int few, qn_packet_hits 
     packet->live = 0;
     body(scene, packet, hits, &wide);
     packet->live = live;
-    hits->found = hits->tied = hits->leaving = hits->far_end = 0, hits->unsure = live;
+    hits->found = hits->tied = hits->tied_surface = hits->leaving = hits->far_end = 0, hits->unsure = live;
   } else {
     qn_counts *counts = qn_scratch_counts(work->scratch);
     body(scene, packet, hits, &wide);
@@ -166,7 +166,7 @@ static uint64_t round_each(quoin_work *work, qn_packet *packet, const qn_packet_
 QN_INLINE quoin_status look_packet(quoin_work *work, qn_packet *packet, int few, unsigned want, qn_seen *out, uint64_t *met) {
   qn_packet_hits hits;
   run(work, packet, few, &hits);
-  uint64_t tied = hits.tied & ~hits.unsure;
+  uint64_t tied = (want & QN_LOOK_SURFACE ? hits.tied_surface : hits.tied) & ~hits.unsure;
   if (tied) {
     tied &= ~(want & QN_LOOK_SURFACE ? qn_alone_lanes(work->scene, packet, &hits, tied) : qn_name_parts(work->scene, qn_scratch_eval(work->scratch), packet, &hits, tied));
   }
@@ -220,7 +220,7 @@ quoin_status qn_look_packet(quoin_work *work, qn_packet *packet, unsigned want, 
 quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, quoin_spot *out, size_t stride) {
   qn_packet_hits hits;
   qn_look_run(work, packet, &hits);
-  const uint64_t woven = hits.unsure | (hits.tied ? hits.tied & ~qn_alone_lanes(work->scene, packet, &hits, hits.tied) : 0), found = hits.found & ~woven;
+  const uint64_t woven = hits.unsure | (hits.tied_surface ? hits.tied_surface & ~qn_alone_lanes(work->scene, packet, &hits, hits.tied_surface) : 0), found = hits.found & ~woven;
   _Alignas(64) double rounded[QN_LANES];
   const double *t = hits.t;
   uint64_t sure = found, known = 0;

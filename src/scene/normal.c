@@ -70,12 +70,32 @@ static quoin_status leaf_union(qn_drawing *m) {
 
 /* --- the whole --------------------------------------------------------------------------------------------------------- */
 
+/* NOLINTNEXTLINE(misc-no-recursion): as deep as QN_NORMAL_DEPTH */
+static int is_union_of_leaves(const qn_drawing *m, uint32_t set) {
+  int leaves = set >= m->gates || m->joins[set];
+  for (uint32_t i = set < m->gates && leaves ? m->kid0[set] : 0; set < m->gates && leaves && i < m->kid0[set + 1]; i++) {
+    leaves = is_union_of_leaves(m, m->kids[i]);
+  }
+  return leaves;
+}
+
+static int are_kin(const qn_drawing *m) {
+  int met = 0, leaves = !m->joins[0];
+  for (uint32_t i = m->kid0[0]; leaves && i < m->kid0[1]; i++) {
+    const int is_met = qn_set_is_met(m, 0, m->kids[i]);
+    met += is_met;
+    leaves = !is_met || is_union_of_leaves(m, m->kids[i]);
+  }
+  return leaves && met == 1;
+}
+
 static void from_root(qn_drawing *m) {
   static const double all[6] = {-INFINITY, -INFINITY, -INFINITY, INFINITY, INFINITY, INFINITY};
   qn_normal *n = m->n;
   if (m->kid0[1] != m->kid0[0] && !qn_draw(m, 0, all)) {
     return;
   }
+  n->kin = m->kid0[1] != m->kid0[0] && are_kin(m);
   n->root = qn_union_make(m, 0);
   if (!m->status && n->root == QN_NO_UNION) { /* nothing: a union of no terms */
     if (!qn_grow(m->mem, &n->unions, &n->union_capacity, n->union_count + 1)) {

@@ -44,6 +44,7 @@ typedef struct qn_normal {
   qn_bvh_node *nodes; size_t node_count, node_capacity; /* child QN_BVH_LEAF | term number */
   uint32_t root;      /* the union that is the scene's set */
   int complement;     /* the solid is the complement of that set */
+  int kin;            /* the root's terms are leaves, from which the same sets are taken: whatever of them passes through a place in two of the terms is taken from both */
   int made;           /* 0: too deep, or not made */
   size_t copies;      /* leaf instances beyond one a leaf */
   size_t shared;      /* unions shared because the budget was met */

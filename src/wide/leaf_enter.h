@@ -5,11 +5,11 @@
 #include "wide/term.h"
 
 /* The place of entry becomes the best where it is sooner; of two leaves with this surface there, the first in the file is named. */
-QN_INLINE unsigned improve(walk *w, int g, vm m, vd t1, vd p1, lanes *best) {
+QN_INLINE unsigned improve(walk *w, const qn_nterm *t, int g, vm m, vd t1, vd p1, lanes *best) {
   int o = g * QN_W;
   vm before, equal;
   vd limit_t = vload(best->t + o), limit_p = vload(best->p + o);
-  order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
+  order_entry(w, t, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
   unsigned ties = vbits(equal);
   vstore(best->t + o, vpick(before, t1, limit_t)), vstore(best->p + o, vpick(before, p1, limit_p));
   if (QN_UNLIKELY(ties)) {
@@ -29,17 +29,17 @@ QN_INLINE unsigned improve(walk *w, int g, vm m, vd t1, vd p1, lanes *best) {
 }
 
 /* leaf_enter where some order of these lanes is not certain at once. */
-static QN_NOINLINE uint64_t leaf_enter_near(walk *w, int g, unsigned in, const stretch *s, const lanes *from, lanes *best) {
+static QN_NOINLINE uint64_t leaf_enter_near(walk *w, const qn_nterm *t, int g, unsigned in, const stretch *s, const lanes *from, lanes *best) {
   const vd start = vload(from->t + g * QN_W), pstart = vload(from->p + g * QN_W);
   vm m = vmask(in), before, equal, ahead;
   order(w, g, start, pstart, s->b, s->pb, &m, &ahead, &equal); /* not yet over */
   m = vand(m, ahead);
   order(w, g, start, pstart, s->a, s->pa, &m, &before, &equal);
-  return (uint64_t)improve(w, g, m, vpick(before, s->a, start), vpick(before, s->pa, pstart), best) << (g * QN_W);
+  return (uint64_t)improve(w, t, g, m, vpick(before, s->a, start), vpick(before, s->pa, pstart), best) << (g * QN_W);
 }
 
 /* A term that is one leaf of a kind known here: solved and compared without leaving the registers. */
-QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+QN_INLINE void leaf_enter(walk *w, const qn_nterm *t, qn_piece_kind kind, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
   piece_constants k;
   if (kind == QN_PIECE_SPHERE) {
     sphere_prepare(&w->f, (const qn_piece_sphere *)(const void *)head, &k.sphere);
@@ -87,16 +87,16 @@ QN_INLINE void leaf_enter(walk *w, qn_piece_kind kind, const qn_piece_head *head
       continue;
     }
     const stretch near = {s.a, s.b, s.pa, s.pb, s.error, s.hit, s.unsure}; /* of its own: s then lives in registers */
-    met |= leaf_enter_near(w, g, vbits(m), &near, from, best);
+    met |= leaf_enter_near(w, t, g, vbits(m), &near, from, best);
   }
   *found |= met, w->counts.leaves += solved;
 }
 
 /* Whether the piece alone says where it is entered. */
-QN_INLINE int piece_enter(walk *w, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
+QN_INLINE int piece_enter(walk *w, const qn_nterm *t, const qn_piece_head *head, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
   switch ((qn_piece_kind)head->kind) {
-  case QN_PIECE_SPHERE: leaf_enter(w, QN_PIECE_SPHERE, head, from, mask & ~w->unsure, best, found); return 1;
-  case QN_PIECE_BOX: leaf_enter(w, QN_PIECE_BOX, head, from, mask & ~w->unsure, best, found); return 1;
+  case QN_PIECE_SPHERE: leaf_enter(w, t, QN_PIECE_SPHERE, head, from, mask & ~w->unsure, best, found); return 1;
+  case QN_PIECE_BOX: leaf_enter(w, t, QN_PIECE_BOX, head, from, mask & ~w->unsure, best, found); return 1;
   case QN_PIECE_ROUND: case QN_PIECE_MEET: case QN_PIECE_HARD: break;
   }
   return 0;

@@ -16,13 +16,14 @@ static int any_outside(walk *w, place at) {
   return !w->unsure;
 }
 
-/* Whether a leaf tied at the place that was found (walk.h). */
-static int tied_at(const walk *w, double t) {
-  int tied = w->ties[0] > TIES;
+/* Whether leaves tied at the place that was found, and whether its surface is open (walk.h). */
+static int tied_at(const walk *w, double t, int *open) {
+  unsigned here = w->ties[0] > TIES ? ALL_TIES : 0;
   for (int i = 0; i < w->ties[0] && i < TIES; i++) {
-    tied |= !(fabs(w->tie[i][0] - t) > w->tolerance[0]);
+    here |= (unsigned)!(fabs(w->tie[i][0] - t) > w->tolerance[0]) << i;
   }
-  return tied;
+  *open = (here & w->open[0]) != 0;
+  return here != 0;
 }
 
 /* best: the first place in the set; it becomes the first boundary. 1: found; *left: it is where the ray leaves the set. */
@@ -48,7 +49,7 @@ static int boundary_of(walk *w, const place *start, place *best, int *left) {
 /* 0: nothing is to be walked; w->unsure: the ray is given up. */
 QN_INLINE int ray_begin(walk *w, const struct quoin_scene *scene, qn_packet *packet, uint64_t budget) {
   w->scene = scene, w->normal = &scene->normal, w->unsure = 0, w->counts = (qn_wide_counts){.budget = budget ? budget : UINT64_MAX};
-  w->ties[0] = 0, w->tolerance[0] = 0;
+  w->ties[0] = w->open[0] = 0, w->tolerance[0] = 0;
   if (!quick_facts(w, packet)) {
     packet->new_origins = packet->new_directions = 1, packet->kept_ranges = 0; /* what was kept was not made by facts() */
     if (!facts(w, packet)) { /* numbers for which no bound is given */
@@ -86,13 +87,15 @@ QN_INLINE void ray_end(walk *w, int found, const place *start, place *best, qn_p
   hits->surface[lane] = (uint32_t)payload, hits->leaf[lane] = (uint32_t)(payload >> 32) & QN_LEAF_BITS;
   hits->far_end |= (uint64_t)vsecond(best->p) << lane;
   hits->leaving |= (uint64_t)(complement ? !left : left) << lane;
-  hits->tied |= (uint64_t)tied_at(w, best->t) << lane;
+  int open;
+  hits->tied |= (uint64_t)tied_at(w, best->t, &open) << lane;
+  hits->tied_surface |= (uint64_t)open << lane;
 }
 
 void QN_OF_ISA(qn_one)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts);
 void QN_OF_ISA(qn_one)(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
-  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
+  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = hits->tied_surface = 0;
   counts->packets++;
   if (!ray_begin(&w, scene, packet, counts->budget)) {
     hits->unsure = w.unsure & packet->live;
@@ -160,7 +163,7 @@ void QN_OF_ISA(qn_each)(const struct quoin_scene *scene, qn_packet *packet, qn_p
   strand strands[ABREAST];
   uint64_t rest = packet->live;
   unsigned busy = 0;
-  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
+  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = hits->tied_surface = 0;
   memset(hits->t, 0, sizeof hits->t), memset(hits->error, 0, sizeof hits->error);
   memset(hits->surface, 0, sizeof hits->surface), memset(hits->leaf, 0, sizeof hits->leaf);
   counts->packets++;

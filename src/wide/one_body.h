@@ -18,8 +18,8 @@ typedef enum turn { TURN_BEFORE, TURN_EQUAL, TURN_AFTER, TURN_UNKNOWN } turn;
 static int union_enter(walk *w, uint32_t u, const place *from, place *best);
 static int union_leave(walk *w, uint32_t u, place *at);
 
-/* How x lies to y; unknown: the ray is given up. */
-QN_INLINE turn turn_of(walk *w, double x, double px, double y, double py) {
+/* How x lies to y; unknown: the ray is given up. entered: as in settle_ties. */
+QN_INLINE turn turn_of_entry(walk *w, const qn_nterm *entered, double x, double px, double y, double py) {
   const double gap = y - x;
   if (!CHECKED) {
     return gap > 0 ? TURN_BEFORE : TURN_AFTER;
@@ -31,9 +31,10 @@ QN_INLINE turn turn_of(walk *w, double x, double px, double y, double py) {
     return TURN_AFTER;
   }
   unsigned equal = 0;
-  settle_ties(w, 0, 1, x, gap, px, py, &equal);
+  settle_ties(w, 0, 1, x, gap, px, py, entered, &equal);
   return equal ? TURN_EQUAL : TURN_UNKNOWN;
 }
+QN_INLINE turn turn_of(walk *w, double x, double px, double y, double py) { return turn_of_entry(w, NULL, x, px, y, py); }
 QN_INLINE turn turn_at(walk *w, const place *x, const place *y) { return turn_of(w, x->t, x->p, y->t, y->p); }
 
 /* What facts() finds out, of one ray whose numbers are usual; 0: of another, nothing can be told here. */
@@ -160,8 +161,8 @@ static int term_seek(walk *w, const qn_nterm *t, place *at, const place *limit) 
 }
 
 /* The place of entry becomes the best where it is sooner; of two leaves with this surface there, the first in the file is named. */
-QN_INLINE int improve(walk *w, double t, double p, place *best) {
-  switch (turn_of(w, t, p, best->t, best->p)) {
+QN_INLINE int improve(walk *w, const qn_nterm *entered, double t, double p, place *best) {
+  switch (turn_of_entry(w, entered, t, p, best->t, best->p)) {
   case TURN_BEFORE: best->t = t, best->p = p; return 1;
   case TURN_EQUAL:
     if ((vword(p) >> 32 & QN_LEAF_BITS) < (vword(best->p) >> 32 & QN_LEAF_BITS)) {
@@ -174,7 +175,7 @@ QN_INLINE int improve(walk *w, double t, double p, place *best) {
 }
 
 /* A term that is one leaf and no more. */
-QN_INLINE int plain_enter(walk *w, const qn_piece_head *head, const place *from, place *best) {
+QN_INLINE int plain_enter(walk *w, const qn_nterm *t, const qn_piece_head *head, const place *from, place *best) {
   stretch s;
   if (!stretch_in(w, head, NULL, 1, &s) || turn_of(w, from->t, from->p, s.b, s.pb) != TURN_BEFORE) {
     return 0;
@@ -183,7 +184,7 @@ QN_INLINE int plain_enter(walk *w, const qn_piece_head *head, const place *from,
   if (ahead == TURN_UNKNOWN) {
     return 0;
   }
-  return ahead == TURN_BEFORE ? improve(w, s.a, s.pa, best) : improve(w, from->t, from->p, best);
+  return ahead == TURN_BEFORE ? improve(w, t, s.a, s.pa, best) : improve(w, t, from->t, from->p, best);
 }
 
 static int term_enter(walk *w, const qn_nterm *t, const place *from, place *best) {
@@ -191,7 +192,7 @@ static int term_enter(walk *w, const qn_nterm *t, const place *from, place *best
   if (line != UINT32_MAX) {
     const qn_piece_head *head = piece_in(w, line);
     if (head->kind == QN_PIECE_SPHERE || head->kind == QN_PIECE_BOX || w->counts.leaves <= w->counts.budget) {
-      return plain_enter(w, head, from, best);
+      return plain_enter(w, t, head, from, best);
     }
     w->unsure = 1;
     return 0;
@@ -209,9 +210,9 @@ static int term_enter(walk *w, const qn_nterm *t, const place *from, place *best
     at = (place){s.a, s.pa};
   }
   if (!t->minus && !t->plus) {
-    return improve(w, at.t, at.p, best);
+    return improve(w, t, at.t, at.p, best);
   }
-  if (turn_at(w, &at, best) != TURN_BEFORE) {
+  if (turn_of_entry(w, t, at.t, at.p, best->t, best->p) != TURN_BEFORE) {
     return 0;
   }
   place limit = *best; /* the sooner of the end and best bounds the search */

@@ -66,7 +66,8 @@ typedef struct qn_packet {
 /* What became of each lane. A lane is in at most one of `found` and `unsure`. */
 typedef struct qn_packet_hits {
   uint64_t found, leaving, unsure;
-  uint64_t tied; /* of the found: leaves tie there; the woven path may name another of them, and of several surfaces there another */
+  uint64_t tied;         /* of the found: leaves tie there, and the woven path may name another of them */
+  uint64_t tied_surface; /* of the tied: where another surface passes there, too, the woven path may name that one */
   _Alignas(64) double t[QN_LANES];      /* approximate: within `error` of the true parameter */
   _Alignas(64) double error[QN_LANES];
   uint32_t surface[QN_LANES], leaf[QN_LANES]; /* leaf: one with that surface at the hit */

@@ -62,12 +62,12 @@ static uint64_t term_seek(walk *w, const qn_nterm *t, lanes *at, const lanes *li
 
 static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
   const uint32_t line = w->scene->plain[t - w->normal->terms];
-  if (line != UINT32_MAX && piece_enter(w, piece_in(w, line), from, mask, best, found)) {
+  if (line != UINT32_MAX && piece_enter(w, t, piece_in(w, line), from, mask, best, found)) {
     return;
   }
   ends e;
   mask = term_solve(w, t, mask & ~w->unsure, &e);
-  int plain = !t->minus && !t->plus;
+  const int plain = !t->minus && !t->plus;
   lanes at, limit;
   uint64_t seek = 0;
   for (int g = 0; g < QN_GROUPS; g++) {
@@ -84,9 +84,9 @@ static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t m
     order(w, g, start, pstart, a, pa, &m, &before, &equal);
     vd t1 = vpick(before, a, start), p1 = vpick(before, pa, pstart);
     if (plain) {
-      *found |= (uint64_t)improve(w, g, m, t1, p1, best) << o;
+      *found |= (uint64_t)improve(w, t, g, m, t1, p1, best) << o;
     } else {
-      order(w, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
+      order_entry(w, t, g, t1, p1, limit_t, limit_p, &m, &before, &equal);
       m = vand(m, before);
       vstore(at.t + o, t1), vstore(at.p + o, p1);
       vm sooner; /* the sooner of b and best bounds the search */
@@ -387,11 +387,11 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
 void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits *hits, qn_wide_counts *counts) {
   walk w;
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){.budget = counts->budget ? counts->budget * QN_GROUPS : UINT64_MAX};
-  memset(w.ties, 0, sizeof w.ties);
+  memset(w.ties, 0, sizeof w.ties), memset(w.open, 0, sizeof w.open);
 #if QN_LANES_NOW == 64
   w.outline.made = 0, w.outline.asked = 0;
 #endif
-  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = 0;
+  hits->unsure = hits->found = hits->leaving = hits->far_end = hits->tied = hits->tied_surface = 0;
   if (!facts(&w, packet)) { /* numbers for which no bound is given */
     hits->unsure = packet->live;
     return;
@@ -495,14 +495,14 @@ void QN_FIRST(const struct quoin_scene *scene, qn_packet *packet, qn_packet_hits
     }
     memcpy(&any, w.ties + j, RUN);
     for (int k = j; any && k < j + RUN; k++) {
-      int tied = w.ties[k] > TIES;
+      unsigned here = w.ties[k] > TIES ? ALL_TIES : 0;
       for (int i = 0; i < w.ties[k] && i < TIES; i++) {
-        tied |= !(fabs(w.tie[i][k] - best.t[k]) > w.tolerance[k]);
+        here |= (unsigned)!(fabs(w.tie[i][k] - best.t[k]) > w.tolerance[k]) << i;
       }
-      hits->tied |= (uint64_t)tied << k;
+      hits->tied |= (uint64_t)(here != 0) << k, hits->tied_surface |= (uint64_t)((here & w.open[k]) != 0) << k;
     }
   }
-  hits->tied &= hits->found;
+  hits->tied &= hits->found, hits->tied_surface &= hits->found;
   counts->nodes += w.counts.nodes, counts->leaves += w.counts.leaves;
 }
 

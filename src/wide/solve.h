@@ -101,14 +101,16 @@ QN_INLINE stretch sphere_solve(const packet_facts *f, const sphere_constants *k,
 /* --- a plane's place, added to a stretch -------------------------------------------------------------------------- */
 typedef struct plane_constants { vd n[3], d, en, eden, steep; vd px; } plane_constants;
 
+/* Sums of |n_i| times the largest |o_i - pivot_i|, and times the largest |d_i|. */
+QN_INLINE double weighed(const packet_facts *f, const double pivot[3], const double n[3]) {
+  return (fabs(n[0]) * farthest(f, 0, pivot[0]) + fabs(n[1]) * farthest(f, 1, pivot[1])) + fabs(n[2]) * farthest(f, 2, pivot[2]);
+}
+QN_INLINE double steepest(const packet_facts *f, const double n[3]) { return (fabs(n[0]) * f->p->dabs[0] + fabs(n[1]) * f->p->dabs[1]) + fabs(n[2]) * f->p->dabs[2]; }
+
 /* n . (x - pivot) + d <= 0 */
 QN_INLINE void plane_prepare(const packet_facts *f, const double pivot[3], const double n[3], double d, uint32_t surface, uint32_t leaf, plane_constants *k) {
-  double en = fabs(d), eden = 0;
-  for (int i = 0; i < 3; i++) {
-    en += fabs(n[i]) * farthest(f, i, pivot[i]);
-    eden += fabs(n[i]) * f->p->dabs[i];
-    k->n[i] = vset(n[i]);
-  }
+  const double en = weighed(f, pivot, n) + fabs(d), eden = steepest(f, n);
+  k->n[0] = vset(n[0]), k->n[1] = vset(n[1]), k->n[2] = vset(n[2]);
   k->d = vset(d);
   k->en = bound(QN_WIDE_ROUND * QN_U * en + QN_WIDE_TINY);
   k->eden = bound(QN_WIDE_ROUND * QN_U * eden);
@@ -155,12 +157,8 @@ typedef struct slab_constants { vd n[3], d0, d1, en, eden, steep, p0, p1; } slab
 
 QN_INLINE void slab_prepare(const packet_facts *f, const double pivot[3], const double n[3], double d0, double d1, uint32_t surface0, uint32_t surface1, uint32_t leaf,
                             slab_constants *k) {
-  double en = most(fabs(d0), fabs(d1)), eden = 0;
-  for (int i = 0; i < 3; i++) {
-    en += fabs(n[i]) * farthest(f, i, pivot[i]);
-    eden += fabs(n[i]) * f->p->dabs[i];
-    k->n[i] = vset(n[i]);
-  }
+  const double en = weighed(f, pivot, n) + most(fabs(d0), fabs(d1)), eden = steepest(f, n);
+  k->n[0] = vset(n[0]), k->n[1] = vset(n[1]), k->n[2] = vset(n[2]);
   k->d0 = vset(d0), k->d1 = vset(d1);
   k->en = bound(QN_WIDE_ROUND * QN_U * en + QN_WIDE_TINY);
   k->eden = bound(QN_WIDE_ROUND * QN_U * eden);
@@ -291,39 +289,33 @@ typedef struct body_constants {
 /* reach: no place of the leaf has a larger |X|. */
 QN_INLINE void body_prepare(const packet_facts *f, const double pivot[3], const double row[3][4], const double s[3], double l, double k0, double reach,
                             uint32_t surface, uint32_t leaf, body_constants *k) {
-  double omega = 0, delta[3], D = 0;
+  /* Sums in pairs, and nothing stored until all is read: this is a chain that the first lanes wait for. */
+  double omega[3], delta[3], size[3];
   for (int i = 0; i < 3; i++) {
-    double w = fabs(row[i][3]);
-    delta[i] = 0;
-    for (int j = 0; j < 3; j++) {
-      w += fabs(row[i][j]) * farthest(f, j, pivot[j]);
-      delta[i] += fabs(row[i][j]) * f->p->dabs[j];
-      k->row[i][j] = vset(row[i][j]);
-    }
-    k->row[i][3] = vset(row[i][3]);
-    omega += w;
-    D += delta[i];
-    k->s[i] = vset(s[i]);
+    omega[i] = weighed(f, pivot, row[i]) + fabs(row[i][3]);
+    delta[i] = steepest(f, row[i]);
+    size[i] = fabs(s[i]);
   }
-  const double c = QN_WIDE_ROUND * QN_U;
-  double R = 2 * reach, A = 0, H = fabs(l) * delta[2], C = 2 * fabs(l) * R + fabs(k0), S = 0;
-  for (int i = 0; i < 3; i++) {
-    A += fabs(s[i]) * delta[i] * delta[i];
-    H += fabs(s[i]) * R * delta[i];
-    C += fabs(s[i]) * R * R;
-    S += fabs(s[i]);
-  }
+  const double c = QN_WIDE_ROUND * QN_U, R = 2 * reach, D = (delta[0] + delta[1]) + delta[2], S = (size[0] + size[1]) + size[2];
+  const double A = (size[0] * (delta[0] * delta[0]) + size[1] * (delta[1] * delta[1])) + size[2] * (delta[2] * delta[2]);
+  const double H = fabs(l) * delta[2] + R * ((size[0] * delta[0] + size[1] * delta[1]) + size[2] * delta[2]);
+  const double C = (2 * fabs(l) * R + fabs(k0)) + S * (R * R);
   /* Each coordinate of X is within e of O + t0 D for the very t0 that was computed: only the move's own rounding counts, which grows with |t0| and so
      as |D| shrinks; lanes with |D|^2 <= QN_WIDE_SLOW D^2 are not solved. */
-  double e = QN_WIDE_MOVE * c * (omega + R) + QN_WIDE_TINY;
-  double ea = c * A, eh = c * H + e * D * S, ec = c * C + 2 * S * R * e + S * e * e + 2 * fabs(l) * e;
-  double ed = QN_WIDE_SLACK * (2 * H * eh + eh * eh + A * ec + C * ea + ea * ec + c * (H * H + A * C)) + QN_WIDE_TINY * QN_WIDE_TINY;
-  double solved = QN_WIDE_SHY * ed;
+  const double e = QN_WIDE_MOVE * c * (((omega[0] + omega[1]) + omega[2]) + R) + QN_WIDE_TINY;
+  const double ea = c * A, eh = c * H + e * (D * S), ec = c * C + e * (S * (2 * R + e) + 2 * fabs(l));
+  const double ed = QN_WIDE_SLACK * (((2 * H + eh) * eh + (A + ea) * ec) + (C * ea + c * (H * H + A * C))) + QN_WIDE_TINY * QN_WIDE_TINY;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 4; j++) {
+      k->row[i][j] = vset(row[i][j]);
+    }
+    k->s[i] = vset(s[i]);
+  }
   k->sound = !CHECKED || (isfinite(ed) && e <= R / 8);
   k->linear = A == 0 && l != 0;
   k->l = vset(l), k->k = vset(k0);
   k->reach2 = vset(R * R), k->far2 = vset(4 * R * R * QN_WIDE_SLACK);
-  k->ed_low = bound(-ed), k->ed_high = bound(solved);
+  k->ed_low = bound(-ed), k->ed_high = bound(QN_WIDE_SHY * ed);
   k->ea = bound(ea), k->eh = bound(eh), k->ec = bound(ec);
   k->flat = bound(QN_WIDE_FLAT * A);
   k->gap = bound(QN_WIDE_SLACK * (eh + c * (2 * H + sqrt(A * C))));
@@ -390,7 +382,7 @@ QN_INLINE void body_roots(const body_constants *k, vd t0, vd a, vd h, vd c, vd l
   vd inv = vdiv(one, vpick(real, a, one)), root = vsqrt(vpick(real, disc, zero));
   vd r0 = vmul(vsub(zero, vadd(h, root)), inv), r1 = vmul(vsub(root, h), inv);
   vd low = vadd(t0, vmin(r0, r1)), high = vadd(t0, vmax(r0, r1)), size = vabs(inv);
-  vd error = vfma(vmul(k->ea, size), vmul(vset(2), vmax(vabs(r0), vabs(r1))), vmul(vadd(k->gap, vdiv(k->two_ed, vpick(real, root, one))), size));
+  vd error = vmul(size, vfma(k->ea, vmul(vset(2), vmax(vabs(r0), vabs(r1))), vfma(k->two_ed, vinverse_above(root), k->gap)));
   part->error = CHECKED ? vpick(real, vfma(vabs(t0), vset(8 * QN_U), error), zero) : zero;
   vm between = vandnot(real, opens), split = vand(vand(real, opens), s->hit);
   part->ta = vpick(between, low, part->ta), part->tb = vpick(between, high, part->tb);

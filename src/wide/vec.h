@@ -17,6 +17,8 @@
 #define QN_FUSED /* a fused operation rounds once */
 #endif
 
+#define QN_INVERSE_BITS 0x7fe0000000000000 /* vinverse_above; the exponents of a number and of its inverse add up to this */
+
 #if defined(QN_SCALAR) /* one lane: a body for a single ray, with the same formulas */
 #include <string.h>
 #define QN_W 1
@@ -64,6 +66,11 @@ QN_INLINE vd vpower(vd a) { /* the power of two at or below a, normal and positi
   return a;
 }
 QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) { return p[0][i]; }
+QN_INLINE vd vinverse_above(vd a) { /* at least 1/a and at most 9/8 of it, of an a from 2^-1021 to 2^1022: linear in the significand, 2 - m where 2/m is meant */
+  const uint64_t w = QN_INVERSE_BITS - vword(a);
+  memcpy(&a, &w, sizeof a);
+  return a;
+}
 
 #elif defined(QN_ISA_AVX512)
 #define QN_W 8
@@ -78,6 +85,7 @@ QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) {
   return _mm512_cvtps_pd(_mm256_set_ps(p[7][i], p[6][i], p[5][i], p[4][i], p[3][i], p[2][i], p[1][i], p[0][i]));
 }
 QN_INLINE vd vpower(vd a) { return _mm512_and_pd(a, _mm512_set1_pd(INFINITY)); } /* the power of two at or below a, normal and positive */
+QN_INLINE vd vinverse_above(vd a) { return _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64(QN_INVERSE_BITS), _mm512_castpd_si512(a))); }
 QN_INLINE void vstore(double *p, vd a) { _mm512_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm512_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm512_sub_pd(a, b); }
@@ -134,6 +142,7 @@ QN_INLINE vd vload(const double *p) { return _mm256_load_pd(p); }
 QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm256_set_pd(p[3][i], p[2][i], p[1][i], p[0][i]); }
 QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) { return _mm256_cvtps_pd(_mm_set_ps(p[3][i], p[2][i], p[1][i], p[0][i])); }
 QN_INLINE vd vpower(vd a) { return _mm256_and_pd(a, _mm256_set1_pd(INFINITY)); }
+QN_INLINE vd vinverse_above(vd a) { return _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(QN_INVERSE_BITS), _mm256_castpd_si256(a))); }
 QN_INLINE vd vfour(double a, double b, double c, double d) { return _mm256_set_pd(d, c, b, a); }
 QN_INLINE void vstore(double *p, vd a) { _mm256_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm256_add_pd(a, b); }
@@ -186,6 +195,7 @@ QN_INLINE vd vload(const double *p) { return _mm_load_pd(p); }
 QN_INLINE vd vcollect(const double *const p[QN_W], int i) { return _mm_set_pd(p[1][i], p[0][i]); }
 QN_INLINE vd vcollect_floats(const float *const p[QN_W], int i) { return _mm_set_pd(p[1][i], p[0][i]); }
 QN_INLINE vd vpower(vd a) { return _mm_and_pd(a, _mm_set1_pd(INFINITY)); }
+QN_INLINE vd vinverse_above(vd a) { return _mm_castsi128_pd(_mm_sub_epi64(_mm_set1_epi64x(QN_INVERSE_BITS), _mm_castpd_si128(a))); }
 QN_INLINE void vstore(double *p, vd a) { _mm_store_pd(p, a); }
 QN_INLINE vd vadd(vd a, vd b) { return _mm_add_pd(a, b); }
 QN_INLINE vd vsub(vd a, vd b) { return _mm_sub_pd(a, b); }

@@ -14,7 +14,7 @@ typedef qn_ends lanes;
 typedef struct lanes { _Alignas(64) double t[QN_LANES_NOW], p[QN_LANES_NOW]; } lanes; /* places and payloads */
 #endif
 
-enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK = 7 * QN_BVH_DEPTH + QN_ENTRY_BOXES, TIES = 4 };
+enum { SUBS = QN_LANES_NOW < 8 ? 1 : 8, SUB_LANES = QN_LANES_NOW / SUBS, STACK = 7 * QN_BVH_DEPTH + QN_ENTRY_BOXES, TIES = 4, ALL_TIES = (1 << TIES) - 1 };
 
 #if QN_LANES_NOW == 1
 /* A single ray against boxes: which side of a box is met first along each axis, and what makes a plane's place of it: plane inv + near (or far). */
@@ -42,8 +42,8 @@ typedef struct walk {
   const struct quoin_scene *scene;
   const qn_normal *normal;
   uint64_t unsure;
-  /* Where ends of two leaves were equal, the first few places: which leaf and which surface is named there is not for the packet to say. */
-  uint8_t ties[QN_LANES_NOW];
+  /* Where ends of two leaves were equal, the first few places: which leaf is named there is not for the packet to say; nor which surface, where bit i of `open` is set, of place i. */
+  uint8_t ties[QN_LANES_NOW], open[QN_LANES_NOW];
   double tie[TIES][QN_LANES_NOW];
   qn_wide_counts counts; /* budget: of all lanes, UINT64_MAX for none */
   float all_omin[3], all_omax[3], all_imin[3], all_imax[3];                       /* of the packet */
@@ -105,9 +105,17 @@ QN_INLINE uint64_t eights(unsigned bits) {
 
 /* --- order --------------------------------------------------------------------------------------------------------- */
 
+/* A tie may settle what a lane does before all that passes at the place has been looked at, and what has not been is where the woven path may find another surface. Not so where two terms of the root
+   are entered at one place and are kin (scene/normal.h): of what is taken from both, all that passes there was looked at when the first of them was found to be entered there. */
+QN_INLINE int is_kin(const walk *w, const qn_nterm *t) {
+  const qn_union *root = &w->normal->unions[w->normal->root];
+  const uint32_t number = (uint32_t)(t - w->normal->terms);
+  return w->normal->kin && (number - root->term0 < root->terms || number - root->wide0 < root->wide);
+}
+
 /* Of the lanes `near`, which may be at one place: in *equal come those where both are the same root of the same surface, the others are given up. A place where a ray
-   starts on a surface is either root of it; two ends that are nobody's are one place if they are one number. */
-static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apart, vd px, vd py, unsigned *equal) {
+   starts on a surface is either root of it; two ends that are nobody's are one place if they are one number. entered: null, or the term whose entry x is. */
+static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apart, vd px, vd py, const qn_nterm *entered, unsigned *equal) {
   const vd zero = vset(0), nobody = vset(payload_bits(QN_NOBODY));
   const unsigned starts = vsigns(px) | vsigns(py), surface = vbits(vsame(px, py, QN_NOBODY)), root = vbits(vsame(px, py, QN_LARGER_ROOT));
   const unsigned apart_ends = vbits(vandnot(vsame(px, nobody, QN_NOBODY), veq(apart, zero)));
@@ -118,17 +126,19 @@ static QN_NOINLINE void settle_ties(walk *w, int g, unsigned near, vd at, vd apa
   if (named) {
     _Alignas(64) double t[QN_W];
     vstore(t, at);
+    const int kin = entered && is_kin(w, entered);
     for (; named; named &= named - 1) {
       const unsigned i = qn_trailing_zeros(named), lane = (unsigned)g * QN_W + i;
       uint8_t *n = &w->ties[lane];
       *n = (uint8_t)(*n + (*n <= TIES));
       w->tie[*n - 1 < TIES ? *n - 1 : 0][lane] = t[i];
+      w->open[lane] |= (uint8_t)(*n > TIES ? ALL_TIES : kin ? 0 : 1u << (*n - 1));
     }
   }
 }
 
-/* x before y, and x equal to y, for the lanes of `mask`; lanes in neither are after, or were given up: these leave `mask`. */
-QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *before, vm *equal) {
+/* x before y, and x equal to y, for the lanes of `mask`; lanes in neither are after, or were given up: these leave `mask`. entered: as in settle_ties. */
+QN_INLINE void order_entry(walk *w, const qn_nterm *entered, int g, vd x, vd px, vd y, vd py, vm *mask, vm *before, vm *equal) {
   if (!CHECKED) {
     *before = vand(vlt(x, y), *mask), *equal = vmask(0);
     return;
@@ -142,10 +152,12 @@ QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *bef
     return;
   }
   unsigned same = 0;
-  settle_ties(w, g, close, x, gap, px, py, &same);
+  settle_ties(w, g, close, x, gap, px, py, entered, &same);
   *equal = vmask(same);
   *mask = vandnot(*mask, vmask(close & ~same));
 }
+
+QN_INLINE void order(walk *w, int g, vd x, vd px, vd y, vd py, vm *mask, vm *before, vm *equal) { order_entry(w, NULL, g, x, px, y, py, mask, before, equal); }
 
 /* --- boxes --------------------------------------------------------------------------------------------------------- */
 

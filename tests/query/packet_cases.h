@@ -77,10 +77,10 @@ static inline void frame_apply(const frame *f, const double x[3], int point, dou
 
 /* --- models, about the cube [-4, 4]^3 ------------------------------------------------------------------------------- */
 
-enum { MODELS = 19 };
+enum { MODELS = 20, SUPERQUADRICS = 18 };
 static const char *const MODEL_NAMES[MODELS] = {
   "spheres",    "boxes",      "cylinders",  "cones",       "paraboloids", "hyperboloids", "saddles",    "any",      "stacked", "tangent",
-  "flush cuts", "half-spaces", "complement", "union meets", "alternating", "lattice",      "polyhedra",  "quadrics", "superquadrics"};
+  "flush cuts", "half-spaces", "complement", "union meets", "alternating", "lattice",      "polyhedra",  "quadrics", "superquadrics", "one face"};
 
 typedef struct writer { char *text; size_t size, at; } writer;
 static inline void put(writer *w, const char *format, ...) {
@@ -240,7 +240,27 @@ static inline void write_model(dice *d, int family, const frame *f, char *text, 
   }
   case 16: put_tree(d, &w, polyhedra, 3, n); break;
   case 17: put_tree(d, &w, quadrics, 1, 1 + roll(d, 3)); break;
-  default: put_tree(d, &w, supers, 3, 1 + roll(d, 3)); break;
+  case SUPERQUADRICS: put_tree(d, &w, supers, 3, 1 + roll(d, 3)); break;
+  default: { /* solids that overlap and have faces in common, less others: all of them, or each less its own */
+    static const char *const stands[] = {"cube([%d,%d,%d]);\n", "cylinder(r=%d,h=%d);\n", "cylinder(r1=%d,r2=%d,h=1);\n", "translate([0,0,-1]) cube([%d,%d,%d]);\n"};
+    const int count = 2 + roll(d, 4), each = roll(d, 2);
+    put(&w, each ? "union() {\n" : "difference() { union() {\n");
+    for (int i = 0; i < count; i++) {
+      const int way = roll(d, 4);
+      put(&w, "%stranslate([%d,%d,0]) ", each ? "difference() { " : "", roll(d, 5) - 3, roll(d, 5) - 3);
+      way == 0 || way == 3 ? put(&w, stands[way], 1 + roll(d, 4), 1 + roll(d, 4), 1 + roll(d, 3)) : put(&w, stands[way], 1 + roll(d, 2), 1 + roll(d, 3));
+      for (int k = 0; each && k < 1 + roll(d, 2); k++) {
+        put_tree(d, &w, all, roll(d, 2) ? 4 : 13, 1 + roll(d, 3));
+      }
+      put(&w, "%s", each ? "}\n" : "");
+    }
+    put(&w, "}\n");
+    for (int i = 0; !each && i < 1 + roll(d, 4); i++) {
+      put_tree(d, &w, all, roll(d, 2) ? 4 : 13, 1 + roll(d, 4));
+    }
+    put(&w, "%s", each ? "" : "}\n");
+    break;
+  }
   }
   put(&w, "}\n");
 }

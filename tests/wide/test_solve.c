@@ -695,9 +695,37 @@ static void floats_outward(void **state) {
   }
 }
 
+/* From the inverse to 9/8 of it, of powers of two and what lies next to them, of the worst, 3/2 of one, and of any. */
+static void inverses_from_above(void **state) {
+  (void)state;
+  _Alignas(64) double x[QN_W], y[QN_W];
+  mpq_t product, most;
+  mpq_inits(product, most, NULL);
+  mpq_set_ui(most, 9, 8);
+  size_t equal = 0, worst = 0;
+  for (int power = -1021; power < 1022; power++) {
+    for (int kind = 0; kind < 6; kind++) {
+      for (int i = 0; i < QN_W; i++) {
+        const double one = ldexp(1, power);
+        x[i] = kind == 0 ? one : kind == 1 ? nextafter(one, HUGE_VAL) : kind == 2 && power > -1021 ? nextafter(one, 0) : kind == 3 ? 1.5 * one : (1.5 + 0.5 * part()) * one;
+      }
+      vstore(y, vinverse_above(vload(x)));
+      for (int i = 0; i < QN_W; i++) {
+        mpq_set_d(product, x[i]);
+        mpq_set_d(q_x, y[i]);
+        mpq_mul(product, product, q_x);
+        equal += mpq_cmp_ui(product, 1, 1) == 0, worst += mpq_cmp(product, most) == 0;
+        assert_true(mpq_cmp_ui(product, 1, 1) >= 0 && mpq_cmp(product, most) <= 0);
+      }
+    }
+  }
+  assert_true(equal >= 2043 * QN_W && worst >= 2043 * QN_W);
+  mpq_clears(product, most, NULL);
+}
+
 int main(void) {
   start_exact();
   const struct CMUnitTest tests[] = {cmocka_unit_test(spheres), cmocka_unit_test(boxes), cmocka_unit_test(planes), cmocka_unit_test(bodies_and_caps),
-                                     cmocka_unit_test(floats_outward)};
+                                     cmocka_unit_test(floats_outward), cmocka_unit_test(inverses_from_above)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

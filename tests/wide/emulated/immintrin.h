@@ -66,6 +66,7 @@ EMULATED emulated_si emulated_castpd_si512(emulated_pd x) { return (emulated_si)
 EMULATED emulated_pd emulated_castsi512_pd(emulated_si x) { return (emulated_pd){_mm256_castsi256_pd(x.a), _mm256_castsi256_pd(x.b)}; }
 EMULATED emulated_si emulated_set1_epi64(long long x) { return (emulated_si){_mm256_set1_epi64x(x), _mm256_set1_epi64x(x)}; }
 EMULATED emulated_si emulated_xor_si512(emulated_si x, emulated_si y) { return (emulated_si){_mm256_xor_si256(x.a, y.a), _mm256_xor_si256(x.b, y.b)}; }
+EMULATED emulated_si emulated_sub_epi64(emulated_si x, emulated_si y) { return (emulated_si){_mm256_sub_epi64(x.a, y.a), _mm256_sub_epi64(x.b, y.b)}; }
 EMULATED unsigned char emulated_testn_epi64_mask(emulated_si x, emulated_si y) { /* lanes in which no bit is in both */
   const __m256i zero = _mm256_setzero_si256();
   return (unsigned char)(_mm256_movemask_pd(_mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(x.a, y.a), zero))) |
@@ -146,6 +147,7 @@ EMULATED __m256i emulated_maskz_compress_epi32(unsigned char m, __m256i x) { /* 
 #define _mm512_castsi512_pd emulated_castsi512_pd
 #define _mm512_slli_epi64 emulated_slli_epi64
 #define _mm512_set1_epi64 emulated_set1_epi64
+#define _mm512_sub_epi64 emulated_sub_epi64
 #define _mm512_xor_si512 emulated_xor_si512
 #define _mm512_testn_epi64_mask emulated_testn_epi64_mask
 #define _mm512_movepi64_mask emulated_movepi64_mask
