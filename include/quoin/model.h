@@ -22,7 +22,7 @@ typedef enum quoin_facets { QUOIN_FACETS_AUTO, QUOIN_FACETS_HONOUR, QUOIN_FACETS
 
 typedef struct quoin_read_options {
   quoin_facets facets;
-  size_t max_errors; /* stop after so many errors; default 100 */
+  size_t max_errors; /* stop after so many errors; 0: the default, 100 */
 } quoin_read_options;
 QUOIN_API quoin_read_options quoin_read_options_default(void);
 
@@ -72,7 +72,7 @@ QUOIN_API quoin_status quoin_add_cylinder(quoin_model *m, quoin_node parent, dou
 QUOIN_API quoin_status quoin_add_paraboloid(quoin_model *m, quoin_node parent, double h, double r, quoin_node *out);
 /* One sheet, waist rc at z = 0, r at z = -h and z = h. */
 QUOIN_API quoin_status quoin_add_hyperboloid(quoin_model *m, quoin_node parent, double h, double r, double rc, quoin_node *out);
-/* Two sheets, vertices at z = -gap and z = gap, r at z = -h and z = h. */
+/* Two sheets, vertices at z = -gap and z = gap, r at z = -h and z = h. QUOIN_E_ARGUMENT also where gap < 0 or gap >= h > 0: there is no such solid. */
 QUOIN_API quoin_status quoin_add_hyperboloid2(quoin_model *m, quoin_node parent, double h, double r, double gap, quoin_node *out);
 QUOIN_API quoin_status quoin_add_saddle(quoin_model *m, quoin_node parent, double a, double b, quoin_node *out);
 /* A x2 + B y2 + C z2 + D xy + E xz + F yz + G x + H y + I z + J <= 0. */

@@ -50,10 +50,10 @@ QUOIN_API void quoin_scene_get_info(const quoin_scene *scene, quoin_scene_info *
 /* The compiled scene as stable text: surfaces, leaves, program. For reading and for tests. */
 QUOIN_API quoin_status quoin_scene_write_text(const quoin_scene *scene, quoin_write_fn write, void *user);
 
-/* A part: a leaf as the user would name it: the innermost name("...") around it, else "word@line:col". */
+/* A part: a leaf as the user would name it: the innermost name("...") around it, else "word@line:col" of a text, "word#N" of the N-th node of a model that calls built. */
 typedef uint32_t quoin_part;
 #define QUOIN_NO_PART UINT32_MAX
-QUOIN_API const char *quoin_part_name(const quoin_scene *scene, quoin_part part); /* "" for QUOIN_NO_PART */
+QUOIN_API const char *quoin_part_name(const quoin_scene *scene, quoin_part part); /* "" for QUOIN_NO_PART, and for no scene */
 
 /* A surface of a part: the body, cap 0, cap 1, or face k of a solid made of planes. */
 typedef enum quoin_role { QUOIN_BODY = 0, QUOIN_CAP0 = 1, QUOIN_CAP1 = 2, QUOIN_FACE = 3 /* + k */ } quoin_role;
@@ -194,7 +194,7 @@ typedef struct quoin_spot {
 } quoin_spot;
 #define QUOIN_NO_SURFACE UINT32_MAX
 
-enum { QUOIN_WANT_T = 2 };
+enum { QUOIN_WANT_T = 4 };
 
 /* The first boundaries of n rays, without what a picture wants of them: some two times as fast as quoin_first_hits. Which surface is met is exact. t is correctly
    rounded when want has QUOIN_WANT_T; else it is only near the true parameter (an error that is far below the distance to any other boundary,

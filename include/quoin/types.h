@@ -66,7 +66,7 @@ typedef struct quoin_diag {
 } quoin_diag;
 
 /* Formats a diagnostic as text with the source line and a caret, at most size bytes with the final NUL; returns the
-   length it needs without the NUL, as snprintf does. */
+   length it needs without the NUL, as snprintf does; nothing, and 0, of no diagnostic. */
 QUOIN_API size_t quoin_diag_format(const quoin_diag *diag, char *text, size_t size);
 
 /* Receives output text. Return 0, or non-zero to stop with QUOIN_E_IO. */

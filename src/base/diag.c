@@ -122,6 +122,12 @@ QUOIN_API size_t quoin_diag_format(const quoin_diag *d, char *text, size_t size)
   static const char *const words[] = {[QUOIN_NOTE] = "note", [QUOIN_WARNING] = "warning", [QUOIN_ERROR] = "error"};
   out o = {text, size, 0};
   char number[64];
+  if (!d) {
+    if (size) {
+      *text = '\0';
+    }
+    return 0;
+  }
   if (d->file[0]) {
     put_text(&o, d->file);
     if (d->line) {

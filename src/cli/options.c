@@ -159,7 +159,12 @@ int cli_take_numbers(const char *option, const char *value, int count, double *o
     char *end;
     out[i] = strtod(at, &end);
     if (length == 0 || end != at + length || !isfinite(out[i])) {
-      cli_error("%s is not a value for --%s; give %d decimal numbers with commas between them", cli_quote(&q, value), option, count);
+      const char *why = length > 0 && end == at + length ? " (a number is beyond the range of doubles)" : "";
+      if (count == 1) {
+        cli_error("%s is not a value for --%s%s; give a decimal number", cli_quote(&q, value), option, why);
+      } else {
+        cli_error("%s is not a value for --%s%s; give %d decimal numbers with commas between them", cli_quote(&q, value), option, why, count);
+      }
       return -1;
     }
     at = end + strspn(end, " ");
@@ -168,7 +173,7 @@ int cli_take_numbers(const char *option, const char *value, int count, double *o
     }
   }
   if (*at) {
-    cli_error("%s is not a value for --%s; give exactly %d numbers", cli_quote(&q, value), option, count);
+    cli_error("%s is not a value for --%s; give exactly %d number%s", cli_quote(&q, value), option, count, count == 1 ? "" : "s");
     return -1;
   }
   return 0;

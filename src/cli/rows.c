@@ -45,15 +45,20 @@ void cli_row_cut(cli_row *row, const char **numbers, char *line, char *end) {
   row->numbers = numbers;
   row->end = end;
   row->count = 0;
-  row->junk = NULL;
+  row->junk = row->empty = NULL;
   char *at = line;
+  int commas = 1; /* since a number; one stands before the first */
   while (row->count <= CLI_MAX_NUMBERS) {
-    while (at < end && kind_of(at) == BLANK) {
-      at++;
+    const char *second = NULL;
+    for (; at < end && kind_of(at) == BLANK; at++) {
+      if (*at == ',' && commas++) {
+        second = second ? second : at;
+      }
     }
     if (at == end || kind_of(at) == COMMENT) {
       return;
     }
+    row->empty = row->empty ? row->empty : second;
     char *start = at;
     for (;; at++) {
       at = part_end(at, end);
@@ -67,6 +72,7 @@ void cli_row_cut(cli_row *row, const char **numbers, char *line, char *end) {
     row->numbers[i] = start;
     row->cut[i] = (uint32_t)(at - line);
     row->under[i] = *at;
+    commas = at < end && *at == ',';
     *at = '\0';
     if (at == end || comment) {
       return;
@@ -98,7 +104,7 @@ static void mark(cli_fault *fault, const cli_row *row, const char *from, const c
 }
 
 int cli_row_fault(cli_row *row, const cli_row_kind *kind, uint64_t line, cli_fault *fault) {
-  if (!row->junk && row->count == kind->numbers) {
+  if (!row->junk && !row->empty && row->count == kind->numbers) {
     return 0;
   }
   fault->status = QUOIN_E_NUMBER;
@@ -109,6 +115,11 @@ int cli_row_fault(cli_row *row, const cli_row_kind *kind, uint64_t line, cli_fau
     snprintf(fault->problem, sizeof fault->problem, "a NUL byte among the numbers");
     fault->reason = "this is no text";
     fault->code = "Q1002";
+  } else if (row->empty) {
+    mark(fault, row, row->empty, row->empty + 1, line);
+    snprintf(fault->problem, sizeof fault->problem, "no number before this comma");
+    fault->reason = "a field is empty";
+    fault->code = "Q1001";
   } else {
     int more = row->count > kind->numbers;
     unsigned i = more ? kind->numbers : row->count - 1; /* the first too many, or the last there is; an empty row is no row */

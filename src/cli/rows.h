@@ -11,6 +11,7 @@
 typedef struct cli_row {
   char *line, *end; /* the line without its newline */
   const char *junk; /* a NUL byte of the line itself, or null */
+  const char *empty; /* a comma where a number is missing before it, or null */
   const char **numbers; /* ended by NUL in the line itself */
   unsigned count; /* numbers found, counting stops at CLI_ROW_ROOM */
   uint32_t cut[CLI_ROW_ROOM]; /* where the NULs stand, from `line` on */

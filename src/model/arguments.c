@@ -36,7 +36,7 @@ void qn_arg_tell(qn_call *call, qn_code code, int parameter, const char *reason,
   qn_tell(call->ev->reporter, code, offset, length, reason, way_out, "%s: %s", call->word->word, text);
 }
 
-static void wrong_type(qn_call *call, int parameter, const char *must) {
+static void wrong_type_of(qn_call *call, int parameter, const char *must, const char *way_out) {
   qn_value v = call->value[parameter];
   if (v.kind == QN_V_BAD) {
     call->bad = 1;
@@ -46,8 +46,9 @@ static void wrong_type(qn_call *call, int parameter, const char *must) {
   char text[60];
   qn_value_text(&call->ev->ctx, v, text, sizeof text);
   snprintf(reason, sizeof reason, "it is %s", text);
-  qn_arg_tell(call, QN_Q0406, parameter, reason, NULL, "'%s' must be %s", parameter_name(call, parameter), must);
+  qn_arg_tell(call, QN_Q0406, parameter, reason, way_out, "'%s' must be %s", parameter_name(call, parameter), must);
 }
+static void wrong_type(qn_call *call, int parameter, const char *must) { wrong_type_of(call, parameter, must, NULL); }
 
 int qn_arg_item(qn_call *call, int parameter, qn_value v, qn_num *out) {
   if (v.kind == QN_V_NUMBER) {
@@ -74,10 +75,9 @@ int qn_arg_truth(qn_call *call, int parameter) {
   if (v.kind == QN_V_BOOL) {
     return v.u.truth;
   }
-  if (v.kind == QN_V_NUMBER) {
-    return qn_value_truth(v);
-  }
-  if (qn_arg_given(call, parameter)) {
+  if (qn_value_is_number(v)) { /* OpenSCAD takes any for false, and does not say so */
+    wrong_type_of(call, parameter, "true or false", parameter == 1 ? "three sizes are a vector: [x, y, z]" : "OpenSCAD takes any number for false");
+  } else if (qn_arg_given(call, parameter)) {
     wrong_type(call, parameter, "true or false");
   }
   return 0;

@@ -232,10 +232,10 @@ QUOIN_API quoin_status quoin_add_hyperboloid(quoin_model *m, quoin_node parent, 
 
 QUOIN_API quoin_status quoin_add_hyperboloid2(quoin_model *m, quoin_node parent, double h, double r, double gap, quoin_node *out) {
   double v[3] = {h, r, gap};
-  if (!allowed(m, parent, v, 3)) {
+  if (!allowed(m, parent, v, 3) || gap < 0 || (h > 0 && gap >= h)) {
     return QUOIN_E_ARGUMENT;
   }
-  return add_leaf(m, parent, QN_HYPERBOLOID2, v, 3, any_not_positive(v, 2) || gap < 0 || gap >= h, out);
+  return add_leaf(m, parent, QN_HYPERBOLOID2, v, 3, any_not_positive(v, 2), out);
 }
 
 QUOIN_API quoin_status quoin_add_saddle(quoin_model *m, quoin_node parent, double a, double b, quoin_node *out) {

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+enum { UNSEEN = 1 << 24 }; /* alpha is 0 */
 static const struct named { const char *name; uint32_t rgb; } names[] = {
   {"aliceblue", 0xF0F8FF}, {"antiquewhite", 0xFAEBD7}, {"aqua", 0x00FFFF}, {"aquamarine", 0x7FFFD4},
   {"azure", 0xF0FFFF}, {"beige", 0xF5F5DC}, {"bisque", 0xFFE4C4}, {"black", 0x000000}, {"blanchedalmond", 0xFFEBCD},
@@ -39,6 +40,7 @@ static const struct named { const char *name; uint32_t rgb; } names[] = {
   {"seashell", 0xFFF5EE}, {"sienna", 0xA0522D}, {"silver", 0xC0C0C0}, {"skyblue", 0x87CEEB}, {"slateblue", 0x6A5ACD},
   {"slategray", 0x708090}, {"slategrey", 0x708090}, {"snow", 0xFFFAFA}, {"springgreen", 0x00FF7F},
   {"steelblue", 0x4682B4}, {"tan", 0xD2B48C}, {"teal", 0x008080}, {"thistle", 0xD8BFD8}, {"tomato", 0xFF6347},
+  {"transparent", UNSEEN},
   {"turquoise", 0x40E0D0}, {"violet", 0xEE82EE}, {"wheat", 0xF5DEB3}, {"white", 0xFFFFFF}, {"whitesmoke", 0xF5F5F5},
   {"yellow", 0xFFFF00}, {"yellowgreen", 0x9ACD32},
 };
@@ -55,15 +57,16 @@ static int order(const char *text, size_t length, const char *name) {
   return name[length] ? -1 : 0;
 }
 
-int qn_color_named(const char *name, size_t length, double rgb[3]) {
+int qn_color_named(const char *name, size_t length, double rgba[4]) {
   size_t low = 0, high = COUNT;
   while (low < high) {
     size_t middle = (low + high) / 2;
     int c = order(name, length, names[middle].name);
     if (c == 0) {
       for (int i = 0; i < 3; i++) {
-        rgb[i] = (names[middle].rgb >> (16 - 8 * i) & 255) / 255.0;
+        rgba[i] = (names[middle].rgb >> (16 - 8 * i) & 255) / 255.0;
       }
+      rgba[3] = names[middle].rgb & UNSEEN ? 0 : 1;
       return 1;
     }
     if (c < 0) {

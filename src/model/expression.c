@@ -1,6 +1,7 @@
 /* Runs an expression's postfix code on a stack. */
 #include "model/evaluate.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,6 +46,9 @@ static qn_value load(qn_evaluator *ev, const qn_op *op) {
     qn_tell(ev->reporter, QN_Q0302, op->offset, name->length, reason, "move that assignment up",
             "'%.60s' is used before its value is known", name->text);
     return QN_BAD;
+  }
+  if (strcmp(name->text, "inf") == 0 || strcmp(name->text, "nan") == 0) { /* what OpenSCAD writes for such numbers into a flat file */
+    return qn_value_double(&ev->ctx, name->text[0] == 'i' ? INFINITY : NAN);
   }
   unknown_name(ev, op);
   return QN_BAD;

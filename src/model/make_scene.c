@@ -72,15 +72,16 @@ uint32_t qn_make_color(qn_call *call) {
   qn_material m = {0};
   if (color(call, C, m.color)) {
     m.has = QN_HAS_COLOR;
-    for (int i = 0; i < 3; i++) {
-      if (!(m.color[i] >= 0 && m.color[i] <= 1)) {
-        qn_arg_tell(call, QN_Q0414, C, "red, green and blue are from 0 to 1", m.color[i] > 1 ? "divide what is from 0 to 255 by 255" : NULL, "a colour's part is %.6g", m.color[i]);
-        break;
-      }
-    }
   }
   if (qn_arg_given(call, ALPHA)) {
     m.color[3] = qn_arg_double(call, ALPHA, 1);
+  }
+  for (int i = 0; m.has && i < 4; i++) {
+    if (!(m.color[i] >= 0 && m.color[i] <= 1)) {
+      qn_arg_tell(call, QN_Q0414, i == 3 && qn_arg_given(call, ALPHA) ? ALPHA : C, "red, green, blue and alpha are from 0 to 1", m.color[i] > 1 ? "divide what is from 0 to 255 by 255" : NULL,
+                  "a colour's part is %.6g", m.color[i]);
+      break;
+    }
   }
   return wrap(call, &m);
 }

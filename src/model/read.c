@@ -7,8 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { MOST_ERRORS = 100 };
+
 QUOIN_API quoin_read_options quoin_read_options_default(void) {
-  return (quoin_read_options){.facets = QUOIN_FACETS_AUTO, .max_errors = 100};
+  return (quoin_read_options){.facets = QUOIN_FACETS_AUTO, .max_errors = MOST_ERRORS};
 }
 
 /* What a failed read puts back. */
@@ -57,6 +59,9 @@ static quoin_status too_large(quoin_model *m, unsigned file) {
 
 static quoin_status read(quoin_model *m, uint32_t parent, unsigned file, const char *text, size_t length,
                          const quoin_read_options *options) {
+  if ((unsigned)options->facets > QUOIN_FACETS_IGNORE) {
+    return QUOIN_E_ARGUMENT;
+  }
   before b = remember(m, parent);
   if (length > QN_MAX_TEXT) {
     return too_large(m, file);
@@ -66,7 +71,7 @@ static quoin_status read(quoin_model *m, uint32_t parent, unsigned file, const c
     return QUOIN_E_MEMORY;
   }
   qn_reporter reporter;
-  qn_reporter_init(&reporter, &m->diags, &source, options->max_errors);
+  qn_reporter_init(&reporter, &m->diags, &source, options->max_errors ? options->max_errors : MOST_ERRORS);
   qn_syntax syntax = {0};
   qn_ctx literals;
   qn_ctx_init(&literals, &m->mem);

@@ -79,9 +79,12 @@ struct quoin_model {
   qn_light *lights;
   size_t light_count, light_capacity;
   size_t leaf_count;
-  uint32_t only;    /* the node marked with '!', or QN_NO_NODE: then this node alone is the solid, under its transforms */
+  uint32_t only;    /* the node marked with '!', or QN_NO_NODE: then this node alone is the solid, and nothing around it counts */
   qn_view view;
 };
+
+/* The node around it in the solid: none around the root, and around what is marked with '!'. */
+QN_INLINE uint32_t qn_above(const struct quoin_model *m, uint32_t node) { return node == m->only ? QN_NO_NODE : m->nodes[node].parent; }
 
 /* Adds a node as parent's last child with room for `numbers` numbers (copied from `from`, whose numbers already live in model->ctx).
    Returns QN_NO_NODE when memory is refused. */

@@ -102,12 +102,22 @@ static void put_value(qn_ctx *ctx, out *o, qn_value v) {
   const char *text;
   switch ((qn_value_kind)v.kind) {
   case QN_V_NUMBER:
+    if (qn_num_is_rounded(v.u.number)) { /* exactly it is a fraction of some eighty digits */
+      char digits[32] = "";
+      snprintf(digits, sizeof digits, "%.17g", qn_num_to_double(v.u.number));
+      put(o, digits, strlen(digits));
+      break;
+    }
     text = qn_num_text(ctx, v.u.number);
     put(o, text ? text : "?", text ? strlen(text) : 1);
     break;
   case QN_V_STRING:
     put(o, "\"", 1);
-    put(o, v.u.text, v.count);
+    for (size_t i = 0; i < v.count; i++) { /* a message is one line */
+      const char c = v.u.text[i];
+      const char *escaped = c == '\n' ? "\\n" : c == '\r' ? "\\r" : c == '\t' ? "\\t" : NULL;
+      put(o, escaped ? escaped : (unsigned char)c < 32 || c == 127 ? "?" : &v.u.text[i], escaped ? 2 : 1);
+    }
     put(o, "\"", 1);
     break;
   case QN_V_VECTOR:

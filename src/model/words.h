@@ -118,8 +118,8 @@ uint32_t qn_make_superquadric(qn_call *call);
 uint32_t qn_make_wedge(qn_call *call);
 uint32_t qn_make_polyhedron(qn_call *call);
 
-/* A colour's components by its CSS name (any case). 0 when there is none. (colors.c) */
-int qn_color_named(const char *name, size_t length, double rgb[3]);
+/* A colour's red, green, blue and alpha by its CSS name (any case). 0 when there is none. (colors.c) */
+int qn_color_named(const char *name, size_t length, double rgba[4]);
 const char *qn_color_near(const char *name);
 
 #endif

@@ -193,7 +193,7 @@ QN_INLINE int next_tile(tiles *t) {
 
 quoin_status quoin_grid_hits(const quoin_scene *scene, quoin_work *work, const quoin_grid *grid, size_t x0, size_t y0, size_t x1, size_t y1, unsigned want,
                              quoin_spot *out) {
-  if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height) {
+  if (!scene || !work || work->scene != scene || !grid || !out || x0 > x1 || y0 > y1 || x1 > grid->width || y1 > grid->height || (want & ~(unsigned)QUOIN_WANT_T)) {
     return QUOIN_E_ARGUMENT;
   }
   if (x0 == x1 || y0 == y1) {

@@ -165,7 +165,7 @@ quoin_status quoin_first_hit(const quoin_scene *scene, quoin_work *work, const q
 }
 
 quoin_status quoin_first_spots(const quoin_scene *scene, quoin_work *work, size_t n, const quoin_ray *rays, unsigned want, quoin_spot *out) {
-  if (!are_given(scene, work, n, rays, out)) {
+  if (!are_given(scene, work, n, rays, out) || (want & ~(unsigned)QUOIN_WANT_T)) {
     return QUOIN_E_ARGUMENT;
   }
   const unsigned look = want & QUOIN_WANT_T ? QN_LOOK_T : 0;

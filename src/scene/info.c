@@ -22,7 +22,7 @@ QUOIN_API void quoin_scene_get_info(const quoin_scene *s, quoin_scene_info *out)
 }
 
 QUOIN_API const char *quoin_part_name(const quoin_scene *s, quoin_part part) {
-  return part < s->leaf_count ? s->name_text + s->part_names[part] : "";
+  return s && part < s->leaf_count ? s->name_text + s->part_names[part] : "";
 }
 
 QUOIN_API int quoin_role_text(uint32_t role, char *text, size_t size) {

@@ -134,8 +134,8 @@ uint64_t qn_path_map(qn_ctx *ctx, qn_kept_maps *maps, uint32_t node, qn_num map[
   const qn_node *nodes = maps->model->nodes;
   const qn_kept_map *start = NULL;
   size_t depth = 0, since = 0, composed_maps = 0;
-  uint32_t up = nodes[node].parent;
-  for (; up != QN_NO_NODE && !start; up = nodes[up].parent) {
+  uint32_t up = qn_above(maps->model, node);
+  for (; up != QN_NO_NODE && !start; up = qn_above(maps->model, up)) {
     start = nodes[up].first != nodes[up].last ? recall(maps, up) : NULL;
     depth += !start;
   }
@@ -148,8 +148,8 @@ uint64_t qn_path_map(qn_ctx *ctx, qn_kept_maps *maps, uint32_t node, qn_num map[
     ctx->failed = QUOIN_E_MEMORY;
     return spared;
   }
-  up = nodes[node].parent;
-  for (size_t i = 0; i < depth; i++, up = nodes[up].parent) {
+  up = qn_above(maps->model, node);
+  for (size_t i = 0; i < depth; i++, up = qn_above(maps->model, up)) {
     path[i] = up;
   }
   qn_mark mark = qn_arena_mark(&ctx->arena);

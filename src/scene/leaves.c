@@ -40,7 +40,7 @@ static void end(qn_maker *m) {
   }
 }
 
-/* The maps of the path from the root to the node. */
+/* The maps of the path from the root, or from what is marked with '!', to the node. */
 static quoin_status take_path(qn_maker *m, uint32_t node) {
   uint32_t *path = NULL;
   size_t count = 0, capacity = 0;
@@ -48,7 +48,7 @@ static quoin_status take_path(qn_maker *m, uint32_t node) {
   while (m->maps.count > 1) {
     qn_maps_pop(&m->maps);
   }
-  for (uint32_t n = m->model->nodes[node].parent; n != QN_NO_NODE && status == QUOIN_OK; n = m->model->nodes[n].parent) {
+  for (uint32_t n = qn_above(m->model, node); n != QN_NO_NODE && status == QUOIN_OK; n = qn_above(m->model, n)) {
     if (qn_is_transform(&m->model->nodes[n])) {
       if (qn_grow(m->mem, &path, &capacity, count + 1)) {
         path[count++] = n;

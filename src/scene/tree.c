@@ -131,25 +131,6 @@ static quoin_status enter(walk *w, uint32_t node, uint32_t term, int negated, ui
   return status;
 }
 
-/* The path from the root to the node marked with '!', without its own node. */
-static quoin_status enter_only(qn_building *b, uint32_t node, uint32_t *material, uint32_t *name) {
-  uint32_t *path = NULL;
-  size_t count = 0, capacity = 0;
-  quoin_status status = QUOIN_OK;
-  for (uint32_t n = b->model->nodes[node].parent; n != QN_NO_NODE && status == QUOIN_OK; n = b->model->nodes[n].parent) {
-    if (qn_grow(b->mem, &path, &capacity, count + 1)) {
-      path[count++] = n;
-    } else {
-      status = QUOIN_E_MEMORY;
-    }
-  }
-  while (count && status == QUOIN_OK) {
-    status = put_on(b, path[--count], material, name);
-  }
-  qn_free(b->mem, path, capacity * sizeof *path);
-  return status;
-}
-
 quoin_status qn_tree_walk(qn_building *b) {
   walk w = {.b = b};
   b->visit_room = b->model->leaf_count;
@@ -158,7 +139,6 @@ quoin_status qn_tree_walk(qn_building *b) {
   quoin_status status = !b->visits || material == UINT32_MAX ? QUOIN_E_MEMORY : add_term(b, QN_NO_GATE, QN_TERM_OR, 0, 0, &root);
   if (status == QUOIN_OK && b->model->only != QN_NO_NODE) {
     node = b->model->only;
-    status = enter_only(b, node, &material, &name);
   }
   if (status == QUOIN_OK) {
     status = enter(&w, node, root, 0, material, name);

@@ -22,7 +22,7 @@ typedef struct qn_reporter {
 void qn_reporter_init(qn_reporter *reporter, qn_diags *diags, const qn_source *source, size_t max_errors);
 
 /* The way out where OpenSCAD itself resolves what is missing here. */
-#define QN_FLATTEN "flatten the file first: openscad -o model.csg model.scad"
+#define QN_FLATTEN "flatten the file first: openscad -o model.csg model.scad (it drops words that are not its own)"
 
 /* Says one thing about `length` bytes at `offset`. reason and way_out may be null. */
 void qn_tell(qn_reporter *reporter, qn_code code, size_t offset, size_t length, const char *reason, const char *way_out,

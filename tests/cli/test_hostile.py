@@ -279,7 +279,7 @@ class Hostile(Case):
         self.ask("x = 1;" * DEEP, [0], "Q0308", "more of Q0308")
         self.ask("cube(q);" * DEEP, [3], "Q0908")
         self.ask("cube(0);" * DEEP, [0], "more of Q0501")
-        self.ask("cube(" + "1," * DEEP + "1);", [0])
+        self.ask("sphere(" + "1," * DEEP + "1);", [0])
         self.ask(";" * 10 ** 6 + "sphere(1);" * DEEP, [0])
         self.ask("polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], faces = [" + "[0,1,2]," * DEEP + "]);", [3], "Q0907")
         self.ask("cylinder(h = 1, r = 1, $fn = 1e300);", [0, 3], options=("--facets", "honour"))

@@ -111,6 +111,24 @@ class WrongLines(Case):
         self.bad(run("query", m, 1, 2, 3, 4), 2, "1 number of 3")
         self.bad(run("query", m, 1, 2, ""), 2, "'' is not a number")
 
+    def test_an_empty_field_is_no_blank(self):
+        m = self.model("cube(1);")
+        for text, column in (("1,,2,3", 3), ("1 , , 2,3", 5), (",1,2,3", 1), ("1,2,,3", 5), ("1,2,\t,3", 6)):
+            self.bad(run("query", m, stdin="0 0 0\n" + text + "\n"), 2, f"<stdin>:2:{column}: error: no number before this comma (a field is empty) [Q1001]")
+        self.good(run("query", m, stdin="1,2,3,\n1 , 2\t,3 ,, # a comment\n"), "outside\noutside\n")
+
+    def test_only_what_is_marked(self):
+        m = self.model("difference() { sphere(9); translate([5, 0, 0]) color(\"red\") !translate([0, 1, 0]) cube(1); } sphere(2);")
+        self.good(run("query", m, "0.5 1.5 0.5", "5.5 1.5 0.5", "0 0 0"), "inside\noutside\noutside\n")
+        self.assertNotIn("[1, 0, 0, 1]", run("scene", m).out)
+
+    def test_numbers_that_are_not_finite_in_a_flat_file(self):
+        m = self.model("cube([1, 1, inf]); multmatrix([[nan, -inf, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) cube(1); inf2 = inf; sphere(2);")
+        result = run("query", m, 0, 0, 1)
+        self.good(result, "inside\n")
+        self.assertEqual(result.err.count("[Q0502]"), 2, result)
+        self.good(run("query", self.model("inf = 2; cube(inf);"), 2, 2, 2), "boundary\n")
+
     def test_junk(self):
         m = self.model("cube(1);")
         rng = random.Random(7)

@@ -70,6 +70,9 @@ static void refused(void **state) {
   assert_int_equal(quoin_add_halfspace(m, QUOIN_ROOT, zero, 1, &n), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_add_halfspace(m, QUOIN_ROOT, v, (double)INFINITY, &n), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_add_superquadric(m, QUOIN_ROOT, v, -1, 1, &n), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_add_hyperboloid2(m, QUOIN_ROOT, 1, 2, 1, &n), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_add_hyperboloid2(m, QUOIN_ROOT, 1, 2, -0.5, &n), QUOIN_E_ARGUMENT);
+  assert_int_equal(quoin_model_read_text(m, QUOIN_ROOT, "t", "cube(1);", 8, &(quoin_read_options){.facets = (quoin_facets)99}), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_add_name(m, QUOIN_ROOT, NULL, &n), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_model_read_text(m, leaf, "t", "", 0, NULL), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_model_read_text(m, QUOIN_ROOT, "t", NULL, 3, NULL), QUOIN_E_ARGUMENT);
@@ -123,7 +126,7 @@ static void errors_add_nothing(void **state) {
 static void error_limit(void **state) {
   (void)state;
   static const char text[] = "cube(a); cube(b); cube(c); cube(d); }";
-  for (size_t most = 1; most < 8; most++) {
+  for (size_t most = 0; most < 8; most++) { /* 0: the default */
     quoin_model *m = new_model();
     quoin_read_options o = quoin_read_options_default();
     o.max_errors = most;
@@ -134,8 +137,10 @@ static void error_limit(void **state) {
       quoin_model_diag(m, i, &d);
       errors += d.severity == QUOIN_ERROR;
     }
-    assert_int_equal(errors, most < 5 ? most : 5);
-    assert_int_equal(quoin_model_diag_count(m), most <= 5 ? errors + 1 : 5);
+    assert_int_equal(errors, most && most < 5 ? most : 5);
+    assert_int_equal(quoin_model_diag_count(m), most && most <= 5 ? errors + 1 : 5);
+    char none[4] = "old";
+    assert_true(quoin_diag_format(NULL, none, sizeof none) == 0 && none[0] == '\0');
     quoin_model_free(m);
   }
 }

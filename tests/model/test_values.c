@@ -69,6 +69,9 @@ static void arithmetic(void **state) {
 static void not_finite(void **state) {
   (void)state;
   value("1/0", "inf");
+  value("inf", "inf");
+  value("-inf", "-inf");
+  value("nan", "nan");
   value("-1/0", "-inf");
   value("0/0", "nan");
   value("1/0 - 1/0", "nan");

@@ -180,6 +180,7 @@ static void colours(void **state) {
   gives("color(\"aliceblue\");", "color([0.9411764705882353, 0.9725490196078431, 1, 1]);\n"); /* f0f8ff */
   gives("color(\"yellowgreen\");", "color([0.6039215686274509, 0.803921568627451, 0.19607843137254902, 1]);\n"); /* 9acd32 */
   gives("color(\"rebeccapurple\");", "color([0.4, 0.2, 0.6, 1]);\n"); /* 663399 */
+  gives("color(\"Transparent\");", "color([0, 0, 0, 0]);\n");
 }
 
 #define TETRAHEDRON "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]"

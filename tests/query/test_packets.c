@@ -409,6 +409,7 @@ static void many_blocked(void **state) {
   assert_int_equal(quoin_first_spots(a.scene, a.work, 5, rays, 0, spots), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_first_spots(a.scene, a.work, 3, rays, 0, NULL), QUOIN_E_ARGUMENT);
   assert_int_equal(quoin_first_spots(a.scene, a.work, 3, rays, 0, spots), QUOIN_OK);
+  assert_int_equal(quoin_first_spots(a.scene, a.work, 3, rays, QUOIN_WANT_CONTACTS, spots), QUOIN_E_ARGUMENT);
   ask_close(&a);
 }
 

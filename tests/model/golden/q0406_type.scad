@@ -7,3 +7,5 @@ multmatrix([1, 2, 3]) cube(1);
 name(3) cube(1);
 quadric(matrix = [[1]]);
 sphere(undef);
+cube(10, 20);
+cylinder(10, 5, 5, center = 0);
