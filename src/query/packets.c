@@ -137,6 +137,13 @@ quoin_status qn_look_round(quoin_work *work, const qn_packet *packet, const qn_p
   return qn_scratch_ctx(work->scratch)->failed;
 }
 
+/* What rounding asks first of a leaf, which is far from the other leaves'. */
+QN_INLINE void fetch_lines(const quoin_work *work, const qn_packet_hits *hits, uint64_t lanes) {
+  for (uint64_t m = lanes; m && work->takes_turns && work->scene->line_of; m &= m - 1) {
+    QN_FETCH(&work->scene->line_of[hits->leaf[qn_trailing_zeros(m)]]);
+  }
+}
+
 /* Of lanes that went each by itself: rounding has one bound of their directions' lengths, which is good for those of about one length. */
 static uint64_t round_each(quoin_work *work, qn_packet *packet, const qn_packet_hits *hits, uint64_t lanes, double t[QN_LANES], uint64_t *made) {
   double dd[QN_LANES], least = HUGE_VAL, most = 0;
@@ -145,9 +152,7 @@ static uint64_t round_each(quoin_work *work, qn_packet *packet, const qn_packet_
     dd[i] = packet->d[0][i] * packet->d[0][i] + packet->d[1][i] * packet->d[1][i] + packet->d[2][i] * packet->d[2][i];
     least = dd[i] < least ? dd[i] : least, most = dd[i] > most ? dd[i] : most;
   }
-  for (uint64_t m = lanes; m && work->scene->line_of; m &= m - 1) { /* each leaf's is far from the others' */
-    QN_FETCH(&work->scene->line_of[hits->leaf[qn_trailing_zeros(m)]]);
-  }
+  fetch_lines(work, hits, lanes);
   if (most <= 4 * least) {
     packet->d_most = sqrt(QN_WIDE_SLACK * most);
     return work->wide->round(work->scene, packet, hits, lanes, t, made);
@@ -186,6 +191,7 @@ QN_INLINE quoin_status look_packet(quoin_work *work, qn_packet *packet, int few,
     } else if (few == QN_EACH_LANE) {
       sure = sure ? round_each(work, packet, &hits, sure, rounded, made) : 0;
     } else {
+      fetch_lines(work, &hits, sure);
       sure = work->wide->round(work->scene, packet, &hits, sure, rounded, made);
     }
     for (uint64_t m = sure; m; m &= m - 1) {
@@ -225,6 +231,7 @@ quoin_status qn_look_tile(quoin_work *work, qn_packet *packet, unsigned want, qu
   const double *t = hits.t;
   uint64_t sure = found, known = 0;
   if (want & QN_LOOK_T && hits.found) {
+    fetch_lines(work, &hits, hits.found);
     known = sure = work->wide->round(work->scene, packet, &hits, hits.found, rounded, &qn_scratch_counts(work->scratch)->exact_forms);
     t = rounded;
   }
