@@ -285,6 +285,23 @@ static quoin_status find_plain(void *user, unsigned thread, size_t i) {
   return QUOIN_OK;
 }
 
+/* A run goes on while lines are as far apart as its first two. */
+static qn_plain_run longest_run(const uint32_t *plain, size_t n) {
+  qn_plain_run best = {0};
+  for (size_t i = 0; i < n;) {
+    qn_plain_run run = {.first = (uint32_t)i, .count = plain[i] != UINT32_MAX, .line = plain[i]};
+    i++;
+    if (run.count && i < n && plain[i] != UINT32_MAX && plain[i] > run.line) {
+      run.step = plain[i] - run.line;
+      for (; i < n && plain[i] != UINT32_MAX && plain[i] - plain[i - 1] == run.step; i++) {
+        run.count++;
+      }
+    }
+    best = run.count > best.count ? run : best;
+  }
+  return best;
+}
+
 quoin_status qn_pieces_build(quoin_scene *scene, const quoin_model *model, qn_mem *mem, const uint8_t *kinds, unsigned threads) {
   const qn_normal *n = &scene->normal;
   scene->line_of = qn_alloc_line(mem, scene->leaf_count * sizeof *scene->line_of);
@@ -321,5 +338,9 @@ quoin_status qn_pieces_build(quoin_scene *scene, const quoin_model *model, qn_me
   scene->plain_count = n->term_count;
   filling f = {scene, model, kinds};
   quoin_status status = qn_parallel(threads, (scene->leaf_count + STRETCH - 1) / STRETCH, fill, &f, NULL);
-  return status == QUOIN_OK ? qn_parallel(threads, (n->term_count + STRETCH - 1) / STRETCH, find_plain, scene, NULL) : status;
+  status = status == QUOIN_OK ? qn_parallel(threads, (n->term_count + STRETCH - 1) / STRETCH, find_plain, scene, NULL) : status;
+  if (status == QUOIN_OK) {
+    scene->run = longest_run(scene->plain, n->term_count);
+  }
+  return status;
 }

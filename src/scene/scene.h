@@ -61,6 +61,9 @@ typedef struct qn_surface {
   _Atomic(struct qn_rounding *) rounding; /* likewise: scene/rounding.h */
 } qn_surface;
 
+/* A run of terms that are one leaf each, with pieces one behind another: that of term first + i begins at line + step i. */
+typedef struct qn_plain_run { uint32_t first, count, line, step; } qn_plain_run;
+
 struct quoin_scene {
   quoin_model *model;
   qn_mem *mem; /* the model's */
@@ -77,6 +80,7 @@ struct quoin_scene {
   uint32_t *line_of;              /* by leaf: its piece's first line */
   _Atomic(struct qn_cells *) *cells; /* null until asked for: scene/cells.h */
   uint32_t *plain; size_t plain_count; /* by term of the normal form: its piece's first line where it is one leaf and no more; else UINT32_MAX */
+  qn_plain_run run;               /* the longest one in `plain` */
   qn_material *materials; size_t material_count; /* all parts filled in; 0 is the default material */
   uint32_t *part_names; /* by leaf: offset in name_text */
   char *name_text; size_t name_size;
@@ -88,6 +92,12 @@ struct quoin_scene {
   struct qn_snaps *snaps;         /* null: nothing was snapped */
   quoin_near_list *snapped;       /* what is told of it; null: not asked for */
 };
+
+/* The first line of a term's piece where it is one leaf and no more; else UINT32_MAX. In large scenes `plain` is far from everything else that a ray reads. */
+QN_INLINE uint32_t qn_plain_line(const quoin_scene *scene, uint32_t term) {
+  const uint32_t i = term - scene->run.first;
+  return QN_LIKELY(i < scene->run.count) ? scene->run.line + scene->run.step * i : scene->plain[term];
+}
 
 /* The exact form of a surface, made on first use; then *made (may be null) is set to 1, else to 0. Null when memory is refused, or its numbers pass
    QN_MAX_SCENE_BITS or their making QN_MAX_SCENE_EFFORT, and for superquadrics, which have none. Threads: any. */

@@ -6,11 +6,33 @@
 enum { CUT = QN_ENTRY_BOXES }; /* boxes of an entry at most: more to be looked at by each tile, fewer on its way down */
 
 typedef struct cut {
-  waiting box[CUT], queue[CUT]; /* done with, by near; and a ring of what may be divided yet */
-  unsigned done, first, waits;
+  waiting box[CUT], stack[CUT]; /* done with, by near; and what may be divided yet, the nearest last */
+  unsigned done;
 } cut;
 
-QN_INLINE void cut_done(cut *c, waiting box) {
+/* A box that is smaller than so much of all the tiles' width is met by too few of them: what stands in it is left to those. */
+#define CUT_SHARE 0.6f
+
+/* How wide the tiles lie together; of rays that converge, at t = 1. */
+static float width_of(const qn_packet *p) {
+  double widest = 0;
+  for (int i = 0; i < 3; i++) {
+    widest = most(widest, fabs(p->across[i][7] - p->across[i][0]) + fabs(p->up[i][7] - p->up[i][0]));
+  }
+  return (float)widest;
+}
+
+static int is_small(const qn_packet *p, const qn_bvh_node *nodes, const waiting *at, float width) {
+  const qn_bvh_node *n = &nodes[at->parent];
+  float size = 0;
+  for (int i = 0; i < 3; i++) {
+    const float length = n->max[i][at->slot] - n->min[i][at->slot];
+    size = length > size ? length : size;
+  }
+  return size < CUT_SHARE * width * (p->tile == QN_TILE_DIRECTIONS ? at->near : 1);
+}
+
+static void cut_done(cut *c, waiting box) {
   unsigned k = c->done++;
   for (; k > 0 && box.near < c->box[k - 1].near; k--) {
     c->box[k] = c->box[k - 1];
@@ -18,28 +40,29 @@ QN_INLINE void cut_done(cut *c, waiting box) {
   c->box[k] = box;
 }
 
-/* A node's children that are met take its place, level by level, while there is room. */
+/* A node's children that are met take its place, those of the nearest first, while there is room. */
 static void cut_make(walk *w, const qn_bvh_node *nodes, uint32_t root, cut *c) {
-  const float start = w->f.p->soonest, end = w->f.p->latest;
-  c->done = c->first = c->waits = 0;
-  for (waiting at = {.node = root};; at = c->queue[c->first++ % CUT], c->waits--) {
-    _Alignas(32) float near[8];
-    if (at.node & QN_BVH_LEAF) {
+  const qn_packet *p = w->f.p;
+  const float start = p->soonest, end = p->latest, width = width_of(p);
+  _Alignas(32) float near[8];
+  c->done = 0;
+  int top = push_children(w, nodes, root, node_meets(w, &nodes[root], start, end, near), near, c->stack, 0, 0);
+  w->counts.nodes++;
+  while (top) {
+    const waiting at = c->stack[--top];
+    if (at.node & QN_BVH_LEAF || is_small(p, nodes, &at, width)) {
       cut_done(c, at);
-    } else {
-      unsigned meets = node_meets(w, &nodes[at.node], start, end, near);
-      w->counts.nodes++;
-      if (c->done + c->waits + qn_bits_set(meets) > CUT) {
-        cut_done(c, at);
-        meets = 0;
-      }
-      for (; meets; meets &= meets - 1) {
-        const unsigned slot = qn_trailing_zeros(meets);
-        c->queue[(c->first + c->waits++) % CUT] = (waiting){near[slot], nodes[at.node].child[slot], at.node, slot};
-      }
+      continue;
     }
-    if (!c->waits) {
-      return;
+    const unsigned meets = node_meets(w, &nodes[at.node], start, end, near);
+    w->counts.nodes++;
+    if (c->done + (unsigned)top + qn_bits_set(meets) > CUT) {
+      cut_done(c, at);
+      continue;
+    }
+    for (unsigned m = meets; m; m &= m - 1) { /* among all that wait, where a walk sorts a node's children only */
+      const unsigned slot = qn_trailing_zeros(m);
+      push_child(w, (waiting){near[slot], nodes[at.node].child[slot], at.node, slot}, c->stack, 0, top++, 0);
     }
   }
 }

@@ -9,7 +9,7 @@ typedef struct waiting { float near; uint32_t node, parent, slot; } waiting; /* 
 /* What is needed of a node of the normal form, or of a term there. */
 QN_INLINE void fetch_child(const walk *w, uint32_t child) {
   if (child & QN_BVH_LEAF) {
-    const uint32_t line = w->scene->plain[child & ~QN_BVH_LEAF];
+    const uint32_t line = qn_plain_line(w->scene, child & ~QN_BVH_LEAF);
     const void *next = line != UINT32_MAX ? (const void *)piece_in(w, line) : &w->normal->terms[child & ~QN_BVH_LEAF];
     QN_FETCH(next);
   } else {
@@ -73,8 +73,9 @@ QN_INLINE int push_heads(const walk *w, const qn_bvh_node *nodes, uint32_t root,
   if (QN_LANES_NOW == 64 && h->entry) {
     int top = 0;
     for (unsigned k = h->entry->count; k-- > 0;) {
-      for (unsigned meets = h->meets[k]; meets; meets &= meets - 1) {
-        const unsigned c = qn_trailing_zeros(meets), at = 8 * k + c;
+      for (unsigned meets = h->meets[k]; meets;) { /* the last first: they lie in order of where all tiles of the entry meet them */
+        const unsigned c = 63 - qn_leading_zeros(meets), at = 8 * k + c;
+        meets &= ~(1u << c);
         push_child(w, (waiting){h->near[k][c], h->entry->nodes[k].child[c], h->entry->parent[at], h->entry->slot[at]}, stack, 0, top++, fetch);
       }
     }

@@ -188,7 +188,7 @@ QN_INLINE int plain_enter(walk *w, const qn_nterm *t, const qn_piece_head *head,
 }
 
 static int term_enter(walk *w, const qn_nterm *t, const place *from, place *best) {
-  const uint32_t line = w->scene->plain[t - w->normal->terms];
+  const uint32_t line = qn_plain_line(w->scene, (uint32_t)(t - w->normal->terms));
   if (line != UINT32_MAX) {
     const qn_piece_head *head = piece_in(w, line);
     if (head->kind == QN_PIECE_SPHERE || head->kind == QN_PIECE_BOX || w->counts.leaves <= w->counts.budget) {
@@ -275,7 +275,7 @@ typedef struct waiting { float near; uint32_t node; } waiting; /* node: or QN_BV
 
 QN_INLINE void fetch_child(const walk *w, uint32_t child) {
   if (child & QN_BVH_LEAF) {
-    const uint32_t line = w->scene->plain[child & ~QN_BVH_LEAF];
+    const uint32_t line = qn_plain_line(w->scene, child & ~QN_BVH_LEAF);
     const void *next = line != UINT32_MAX ? (const void *)piece_in(w, line) : &w->normal->terms[child & ~QN_BVH_LEAF];
     QN_FETCH(next);
   } else {

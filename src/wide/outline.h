@@ -130,8 +130,9 @@ QN_INLINE unsigned outline_misses(const outline *s, unsigned k, vf8 a, vf8 c, vf
   return fle(most2, ffma(x, x, fmul(z, z)));
 }
 
-/* The lanes that do not surely miss the ball, of a tile four by four. */
-QN_INLINE uint64_t outline_lanes(walk *w, const qn_piece_sphere *b) {
+typedef struct disc { vf8 a, c, most2; int usable; } disc; /* the ball's middle along both axes, and the square of how far it reaches */
+
+QN_INLINE disc disc_of(walk *w, const qn_piece_sphere *b) {
   const outline *s = &w->outline;
   if (!s->made) {
     outline_make(w);
@@ -141,18 +142,26 @@ QN_INLINE uint64_t outline_lanes(walk *w, const qn_piece_sphere *b) {
   const double at0 = e[0][0] * y[0] + e[0][1] * y[1] + e[0][2] * y[2], at1 = e[1][0] * y[0] + e[1][1] * y[1] + e[1][2] * y[2];
   const double reach = sqrt(b->r2) + 2 * (double)b->off + s->half + QN_OUTLINE_PLACE * (fabs(y[0]) + fabs(y[1]) + fabs(y[2]));
   const float limit = (float)(reach * reach * QN_OUTLINE_SQUARE) + QN_FLOAT_TINY;
-  if (QN_UNLIKELY(!(limit < FLT_MAX))) {
-    return ~(uint64_t)0;
-  }
-  const vf8 a = fset((float)at0), c = fset((float)at1), most2 = fset(limit);
+  return (disc){fset((float)at0), fset((float)at1), fset(limit), limit < FLT_MAX};
+}
+
+/* The fours of a tile of origins that do not surely miss the ball. */
+QN_INLINE unsigned outline_fours(walk *w, const qn_piece_sphere *b) {
+  const disc d = disc_of(w, b);
+  return QN_LIKELY(d.usable) ? 0xffff & ~(outline_misses(&w->outline, 0, d.a, d.c, d.most2) | outline_misses(&w->outline, 8, d.a, d.c, d.most2) << 8) : 0xffff;
+}
+
+/* The lanes that do not surely miss it. */
+QN_INLINE uint64_t outline_lanes(walk *w, const qn_piece_sphere *b) {
   if (w->f.p->tile == QN_TILE_ORIGINS) {
-    return ~((eights(outline_misses(s, 0, a, c, most2)) & 0x0f0f0f0f0f0f0f0fu) | (eights(outline_misses(s, 8, a, c, most2)) & 0xf0f0f0f0f0f0f0f0u));
+    return lanes_of_fours(outline_fours(w, b));
   }
+  const disc d = disc_of(w, b);
   uint64_t misses = 0;
   for (unsigned k = 0; k < QN_LANES; k += 8) {
-    misses |= (uint64_t)outline_misses(s, k, a, c, most2) << k;
+    misses |= (uint64_t)outline_misses(&w->outline, k, d.a, d.c, d.most2) << k;
   }
-  return ~misses;
+  return QN_LIKELY(d.usable) ? ~misses : ~(uint64_t)0;
 }
 #endif
 

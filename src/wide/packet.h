@@ -22,7 +22,7 @@ QN_INLINE unsigned qn_lane_of(unsigned column, unsigned row) {
 typedef struct qn_ends { _Alignas(64) double t[QN_LANES], p[QN_LANES]; } qn_ends; /* places and payloads (walk.h) */
 
 /* Where the walk of a tile may begin in place of the root: boxes of a cut through the hierarchy, which hold all that any ray of some neighbouring tiles may meet in their range. */
-enum { QN_ENTRY_NODES = 3, QN_ENTRY_BOXES = 8 * QN_ENTRY_NODES };
+enum { QN_ENTRY_NODES = 12, QN_ENTRY_BOXES = 8 * QN_ENTRY_NODES };
 typedef struct qn_entry {
   qn_bvh_node nodes[QN_ENTRY_NODES];                     /* of eight boxes each, the nearest first */
   uint32_t parent[QN_ENTRY_BOXES], slot[QN_ENTRY_BOXES]; /* of the hierarchy, whose children these are */

@@ -61,7 +61,7 @@ static uint64_t term_seek(walk *w, const qn_nterm *t, lanes *at, const lanes *li
 }
 
 static void term_enter(walk *w, const qn_nterm *t, const lanes *from, uint64_t mask, lanes *best, uint64_t *found) {
-  const uint32_t line = w->scene->plain[t - w->normal->terms];
+  const uint32_t line = qn_plain_line(w->scene, (uint32_t)(t - w->normal->terms));
   if (line != UINT32_MAX && piece_enter(w, t, piece_in(w, line), from, mask, best, found)) {
     return;
   }
@@ -194,7 +194,7 @@ static float earliest(const walk *w, const lanes *at, uint64_t mask) {
 #if QN_LANES_NOW == 64
 /* The ball that a node's child is, or null. */
 QN_INLINE const qn_piece_sphere *ball_of(const walk *w, uint32_t child) {
-  const uint32_t line = child & QN_BVH_LEAF ? w->scene->plain[child & ~QN_BVH_LEAF] : UINT32_MAX;
+  const uint32_t line = child & QN_BVH_LEAF ? qn_plain_line(w->scene, child & ~QN_BVH_LEAF) : UINT32_MAX;
   const qn_piece_head *head = line != UINT32_MAX ? piece_in(w, line) : NULL;
   return head && head->kind == QN_PIECE_SPHERE ? (const qn_piece_sphere *)(const void *)head : NULL;
 }
@@ -212,15 +212,18 @@ QN_INLINE int misses_only(walk *w, const qn_union *un, const heads *h) {
 }
 #endif
 
-/* The lanes that may meet a node's child that is a term. */
-QN_INLINE uint64_t lanes_meet_term(walk *w, const waiting *at) {
+/* The lanes, of `fours`, that may meet a node's child that is a term. */
+QN_INLINE uint64_t lanes_meet_term(walk *w, const waiting *at, unsigned fours) {
 #if QN_LANES_NOW == 64
   const qn_piece_sphere *b = outline_pays(w) ? ball_of(w, at->node) : NULL;
   if (b) {
-    return outline_lanes(w, b);
+    return w->f.p->tile == QN_TILE_ORIGINS ? lanes_of_fours(outline_fours(w, b) & fours) : outline_lanes(w, b) & lanes_of_fours(fours);
   }
-#endif
+  return subs_meet_child(w, &w->normal->nodes[at->parent], at->slot) & lanes_of_fours(fours);
+#else
+  (void)fours;
   return subs_meet_child(w, &w->normal->nodes[at->parent], at->slot);
+#endif
 }
 
 /* No lane starts before `start` or has a best place after `end`. h: where the walk begins. any: a lane is done when a
@@ -258,17 +261,20 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
         return found & ~w->unsure;
       }
     } while (stack[--top].near > end);
-    uint64_t within = ~(uint64_t)0;
 #if QN_LANES_NOW == 64
-    if (stale) {
+    if (changed) {
       see_lasts(w, best, mask & ~w->unsure, changed, &last);
-      end = last_of_all(&last), stale = 0, changed = 0;
-      if (stack[top].near > end) {
-        continue;
-      }
+      changed = 0;
     }
-    within = lanes_before(&last, stack[top].near);
+    const unsigned fours = fours_before(&last, stack[top].near);
+    if (!fours) {
+      continue;
+    }
+    if (stale && !(stack[top].node & QN_BVH_LEAF)) {
+      end = last_of_all(&last), stale = 0;
+    }
 #else
+    const unsigned fours = ~0u;
     if (stale && !(stack[top].node & QN_BVH_LEAF)) { /* of many lanes, as much work as a leaf: worth it for nodes only */
       end = latest(w, best, mask & ~w->unsure), stale = 0;
       if (stack[top].near > end) {
@@ -278,7 +284,7 @@ static uint64_t union_walk(walk *w, const qn_union *un, const lanes *from, uint6
 #endif
     uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
-      uint64_t in = lanes_meet_term(w, &stack[top]) & mask & within & ~w->unsure;
+      uint64_t in = lanes_meet_term(w, &stack[top], fours) & mask & ~w->unsure;
       if (in) {
         term_enter(w, &terms[at & ~QN_BVH_LEAF], from, in, best, &better);
         if (!top) {

@@ -266,6 +266,7 @@ QN_INLINE vdd vtwo_product(vd a, vd b) {
 
 /* --- eight floats ----------------------------------------------------------------------------------------------- */
 /* fnarrow: of eight doubles, rounded. fleast, fmost: of eight. veights: the least (most: the largest) of each eight of 64 doubles.
+   vfour_most: the largest of the sums of four doubles each, in those of four lanes; of none -2^126: finite, so that floats stay numbers.
    ftable: the sums, rounded twice, of two columns and four rows: x0 + y0, x0 + y1, x1 + y0, x1 + y1, and the same with y2 and y3. */
 #if defined(QN_ISA_AVX2) || defined(QN_ISA_AVX512)
 typedef __m256 vf8;
@@ -299,6 +300,12 @@ QN_INLINE void veights(const double v[64], int most, double out[8]) {
     const __m256d b = further(_mm256_unpacklo_pd(x[2], x[3]), _mm256_unpackhi_pd(x[2], x[3]), most);
     _mm256_store_pd(out + half, further(_mm256_permute2f128_pd(a, b, 0x20), _mm256_permute2f128_pd(a, b, 0x31), most));
   }
+}
+QN_INLINE double vfour_most(const double x[4], const double y[4], unsigned lanes) {
+  const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1), in = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)lanes), lane), lane);
+  const __m256d sum = _mm256_blendv_pd(_mm256_set1_pd(-0x1p+126), _mm256_add_pd(_mm256_load_pd(x), _mm256_load_pd(y)), _mm256_castsi256_pd(in));
+  const __m128d most = _mm_max_pd(_mm256_castpd256_pd128(sum), _mm256_extractf128_pd(sum, 1));
+  return _mm_cvtsd_f64(_mm_max_sd(most, _mm_unpackhi_pd(most, most)));
 }
 QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
   const __m256d pair = _mm256_blend_pd(_mm256_set1_pd(x[0]), _mm256_set1_pd(x[1]), 0xc); /* not set_pd: gcc 12 takes wrong lanes of eight for it (tests/house/objects.sh) */
@@ -334,6 +341,14 @@ QN_INLINE void veights(const double v[64], int most, double out[8]) {
     const __m128d x = further(further(_mm_load_pd(v), _mm_load_pd(v + 2), most), further(_mm_load_pd(v + 4), _mm_load_pd(v + 6), most), most);
     _mm_store_sd(out + k, further(x, _mm_unpackhi_pd(x, x), most));
   }
+}
+QN_INLINE double vfour_most(const double x[4], const double y[4], unsigned lanes) {
+  double most = -0x1p+126;
+  for (unsigned i = 0; i < 4; i++) {
+    const double sum = lanes >> i & 1 ? x[i] + y[i] : most;
+    most = sum > most ? sum : most;
+  }
+  return most;
 }
 QN_INLINE vf8 ftable(const double x[2], const double y[4]) {
   const __m128d left = _mm_set1_pd(x[0]), right = _mm_set1_pd(x[1]), first = _mm_set_pd(y[1], y[0]), second = _mm_set_pd(y[3], y[2]);

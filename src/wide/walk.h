@@ -103,6 +103,15 @@ QN_INLINE uint64_t eights(unsigned bits) {
   return ((x + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u) * 255;
 }
 
+#if QN_LANES_NOW == 64
+/* The lanes of fours: bit i of the lower eight the first four of sub-packet i, of the upper eight the others. */
+QN_INLINE uint64_t lanes_of_fours(unsigned fours) {
+  const uint64_t ones = 0x0101010101010101u, each = 0x8040201008040201u, carry = 0x7f7f7f7f7f7f7f7fu;
+  const uint64_t first = ((fours & 255) * ones & each) + carry, second = ((fours >> 8) * ones & each) + carry;
+  return ((first >> 7 & ones) | (second >> 3 & ones << 4)) * 15;
+}
+#endif
+
 /* --- order --------------------------------------------------------------------------------------------------------- */
 
 /* A tie may settle what a lane does before all that passes at the place has been looked at, and what has not been is where the woven path may find another surface. Not so where two terms of the root

@@ -1,4 +1,4 @@
-/* Rows of round pieces: evened out by powers of two alone, and nothing of the leaf is beyond their reach. */
+/* Rows of round pieces: evened out by powers of two alone, and nothing of the leaf is beyond their reach. Where the pieces of terms lie. */
 #include "base/bounds.h"
 #include "reading.h"
 #include "scene/piece.h"
@@ -106,7 +106,51 @@ static void rounds(void **s) {
   assert_true(pieces > share_min(2500) && evened > share_min(1000) && unevened > share_min(1000) && inside > share_min(100000) && (!share_whole() || fullest > 0.9));
 }
 
+typedef struct row { const char *child; int many; } row;
+
+/* Children in rows, one behind another along x. */
+static void write_rows(char *text, size_t room, const char *head, const row *rows, size_t count, const char *tail) {
+  size_t used = (size_t)snprintf(text, room, "%s", head);
+  for (size_t r = 0; r < count; r++) {
+    for (int i = 0; i < rows[r].many; i++) {
+      used += (size_t)snprintf(text + used, room - used, "translate([%d,%zu,0]) %s", 5 * i, 9 * r, rows[r].child);
+    }
+  }
+  assert_true(used + strlen(tail) < room);
+  memcpy(text + used, tail, strlen(tail) + 1);
+}
+
+/* Terms in a run are found by counting, the others in the table: both as the normal form has them. */
+static void lines_of_terms(void **s) {
+  (void)s;
+  static const char BALL[] = "sphere(1);", BOX[] = "cube(1);", ROUND[] = "cylinder(r=1,h=3);", CUT[] = "difference(){cube(2);sphere(1);}", BOTH[] = "intersection(){sphere(2);cube(3);}";
+  static const struct { const char *head, *tail; row rows[3]; uint32_t run; } CASES[] = {
+    {"", "", {{BALL, 1}}, 1},
+    {"", "", {{BALL, 40}}, 40},
+    {"", "", {{BOX, 40}}, 40},
+    {"difference(){cube([200,10,1]);", "}", {{ROUND, 30}}, 30},
+    {"", "", {{BALL, 20}, {ROUND, 40}, {CUT, 10}}, 2},
+    {"", "", {{CUT, 10}, {BOTH, 3}}, 1},
+    {"", "", {{BOTH, 1}}, 0}};
+  size_t counted = 0, looked_up = 0;
+  for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+    char text[8000];
+    write_rows(text, sizeof text, CASES[c].head, CASES[c].rows, 3, CASES[c].tail);
+    quoin_scene *scene = scene_of(text);
+    const qn_normal *n = &scene->normal;
+    assert_true(scene->run.count >= CASES[c].run && scene->run.count <= n->term_count);
+    for (uint32_t i = 0; i < n->term_count; i++) {
+      const qn_nterm *t = &n->terms[i];
+      const int plain = t->leaves == 1 && !t->minus && !t->plus, run = i - scene->run.first < scene->run.count;
+      assert_int_equal(qn_plain_line(scene, i), plain ? scene->line_of[n->leaves[t->leaf0]] : UINT32_MAX);
+      counted += (size_t)run, looked_up += (size_t)(plain && !run);
+    }
+    quoin_scene_free(scene);
+  }
+  assert_true(counted > 100 && looked_up > 10);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rounds)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rounds), cmocka_unit_test(lines_of_terms)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
