@@ -99,6 +99,11 @@ QN_INLINE uint32_t qn_plain_line(const quoin_scene *scene, uint32_t term) {
   return QN_LIKELY(i < scene->run.count) ? scene->run.line + scene->run.step * i : scene->plain[term];
 }
 
+/* Whether what rays walk through is more than the caches hold: then they are walked in turns, and memory is asked for what comes next. Measured: of what a core's caches hold, turns are 5 to 15 % slower;
+   at 11 MB they are faster. */
+enum { QN_CACHED_BYTES = 1 << 23 };
+QN_INLINE int qn_scene_is_far(const quoin_scene *scene) { return scene->normal.node_count * sizeof(qn_bvh_node) + scene->line_count * 64 >= QN_CACHED_BYTES; }
+
 /* The exact form of a surface, made on first use; then *made (may be null) is set to 1, else to 0. Null when memory is refused, or its numbers pass
    QN_MAX_SCENE_BITS or their making QN_MAX_SCENE_EFFORT, and for superquadrics, which have none. Threads: any. */
 const qn_exact_surface *qn_scene_exact(const quoin_scene *scene, uint32_t surface, int *made);

@@ -61,6 +61,31 @@ static void leaf_spans(walk *w, uint32_t leaf, uint64_t mask, qn_packet_spans *o
   leaf_spans_of(w, QN_PIECE_ROUND, head, mask, out);
 }
 
+/* The lanes that may meet a node's child that is a leaf. */
+QN_INLINE uint64_t lanes_meet_leaf(walk *w, const waiting *at, uint32_t leaf) {
+#if QN_LANES_NOW == 64
+  if (w->f.p->tile == QN_TILE_ORIGINS) {
+    const qn_piece_head *head = piece_at(w, leaf);
+    if (head->kind == QN_PIECE_SPHERE) {
+      return outline_lanes(w, (const qn_piece_sphere *)(const void *)head);
+    }
+  }
+#endif
+  (void)leaf;
+  return subs_meet_child(w, &w->scene->bvh.nodes[at->parent], at->slot);
+}
+
+/* Asks memory for what is needed of a node of the hierarchy of all leaves, or of a leaf there. */
+QN_INLINE void fetch_met(const walk *w, uint32_t child) {
+  const qn_bvh *bvh = &w->scene->bvh;
+  if (child & QN_BVH_LEAF) {
+    const uint32_t leaf = bvh->items[child & ~QN_BVH_LEAF];
+    QN_FETCH(&w->scene->leaves[leaf].gate), QN_FETCH(piece_at(w, leaf));
+  } else {
+    QN_FETCH(&bvh->nodes[child]), QN_FETCH(bvh->nodes[child].max), QN_FETCH(&bvh->nodes[child].max[2]);
+  }
+}
+
 /* Where some lanes have no range, or one beyond what floats hold. */
 static QN_NOINLINE void ranges(const qn_packet *packet, uint64_t *mask, float *start, float *end) {
   double from = INFINITY, to = -INFINITY;
@@ -77,6 +102,9 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
 void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_spans *out, qn_wide_counts *counts) {
   walk w;
   w.scene = scene, w.normal = &scene->normal, w.unsure = 0, w.counts = (qn_wide_counts){0};
+#if QN_LANES_NOW == 64
+  w.outline.made = 0, w.outline.asked = 0;
+#endif
   out->full = out->limited = 0, out->unsure = out->merged = 0, out->reach = INFINITY;
   memset(out->count, 0, sizeof out->count);
   counts->packets++;
@@ -92,6 +120,7 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
   }
   const qn_bvh_node *nodes = scene->bvh.nodes;
   const uint32_t root = scene->bvh.node_count && mask ? 0 : QN_NO_ROOT;
+  const int far = qn_scene_is_far(scene);
   heads h;
   if (!heads_meet(&w, nodes, root, root == QN_NO_ROOT ? NULL : entry_of(packet), start, end, &h) && !scene->unbounded_count) { /* nothing near: no ray need be made */
     out->merged = scene->program.base ? 0 : packet->live;
@@ -114,16 +143,21 @@ void QN_SPANS(const struct quoin_scene *scene, qn_packet *packet, qn_packet_span
     top--;
     uint32_t at = stack[top].node;
     if (at & QN_BVH_LEAF) {
-      uint64_t in = subs_meet_child(&w, &nodes[stack[top].parent], stack[top].slot) & mask & ~w.unsure;
+      const uint32_t leaf = scene->bvh.items[at & ~QN_BVH_LEAF];
+      const uint64_t in = lanes_meet_leaf(&w, &stack[top], leaf) & mask & ~w.unsure;
       if (in) {
-        leaf_spans(&w, scene->bvh.items[at & ~QN_BVH_LEAF], in, out);
+        leaf_spans(&w, leaf, in, out);
       }
       continue;
     }
     w.counts.nodes++;
     _Alignas(32) float near[8];
     const unsigned meets = node_meets(&w, &nodes[at], start, end, near);
+    const int below = top;
     top = push_children(&w, nodes, at, meets, near, stack, top, 0);
+    for (int i = below; far && i < top; i++) {
+      fetch_met(&w, stack[i].node);
+    }
   }
   memcpy(out->tolerance, w.tolerance, sizeof w.tolerance);
   out->unsure = w.unsure & packet->live;
