@@ -12,7 +12,7 @@
 void qn_order_candidates(qn_scratch *s) {
   enum { BITS = 11, SLOTS = 1 << BITS, MANY = 256 };
   size_t n = s->candidate_count;
-  if (n < MANY || !qn_grow(s->mem, &s->sorted, &s->sorted_capacity, s->candidate_capacity)) {
+  if (n < MANY || !qn_grow(s->mem, &s->sorted, &s->sorted_capacity, n)) {
     return; /* any order will do */
   }
   for (int shift = 0; shift < 32 && s->scene->leaf_count >> shift; shift += BITS) {
@@ -89,7 +89,7 @@ static uint32_t key_of(double t) {
 /* The events in the order of their doubles, nearly. */
 static void nearly(qn_scratch *s, size_t n) {
   enum { BITS = 8, SLOTS = 1 << BITS, PASSES = 4 };
-  if (!qn_grow(s->mem, &s->keys, &s->key_capacity, 2 * n) || !qn_grow(s->mem, &s->sorting, &s->sorting_capacity, s->event_capacity)) {
+  if (!qn_grow(s->mem, &s->keys, &s->key_capacity, 2 * n) || !qn_grow(s->mem, &s->sorting, &s->sorting_capacity, n)) {
     return; /* any order will do */
   }
   uint32_t at[PASSES][SLOTS] = {{0}};

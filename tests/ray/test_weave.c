@@ -136,7 +136,7 @@ static void test_superquadric(void **state) {
 }
 
 /* With every bound of memory, the answer is right or refused. */
-typedef struct purse { size_t left; } purse;
+typedef struct purse { size_t left, largest; } purse; /* allocations that are granted; the largest block asked for */
 static void *purse_alloc(void *user, size_t size) {
   purse *p = user;
   if (p->left == 0) {
@@ -148,6 +148,7 @@ static void *purse_alloc(void *user, size_t size) {
 static void *purse_resize(void *user, void *block, size_t old_size, size_t new_size) {
   purse *p = user;
   (void)old_size;
+  p->largest = new_size > p->largest ? new_size : p->largest;
   if (p->left == 0) {
     return NULL;
   }
@@ -161,7 +162,7 @@ static void purse_release(void *user, void *block, size_t size) {
 
 static void test_memory(void **state) {
   (void)state;
-  purse p = {SIZE_MAX};
+  purse p = {SIZE_MAX, 0};
   quoin_allocator allocator = {purse_alloc, purse_resize, purse_release, &p, 0};
   quoin_model *model;
   quoin_scene *scene;
@@ -204,9 +205,48 @@ static void test_memory(void **state) {
   quoin_model_free(model);
 }
 
+/* However many lines of however many ends: scratch is as large as the longest of them needs. */
+static void test_scratch_stays(void **state) {
+  (void)state;
+  enum { BALLS = 60, LARGE = 40, LINES = 100 };
+  purse p = {SIZE_MAX, 0};
+  quoin_allocator allocator = {purse_alloc, purse_resize, purse_release, &p, 0};
+  quoin_model *model;
+  quoin_scene *scene;
+  assert_int_equal(quoin_model_new(&allocator, &model), QUOIN_OK);
+  for (int i = 0; i < BALLS; i++) {
+    quoin_node at;
+    const double v[3] = {3.0 * i, 0, 0};
+    assert_int_equal(quoin_add_translate(model, QUOIN_ROOT, v, &at), QUOIN_OK);
+    assert_int_equal(quoin_add_sphere(model, at, i < LARGE ? 1 : 0.5, NULL), QUOIN_OK);
+  }
+  assert_int_equal(quoin_scene_compile(model, NULL, &scene), QUOIN_OK);
+  for (int shorter = 0; shorter < 3; shorter++) { /* how many lines that meet the large ones only come first */
+    qn_scratch *scratch;
+    assert_int_equal(qn_scratch_new(scene, &scratch), QUOIN_OK);
+    p.largest = 0;
+    size_t after_one = 0;
+    for (int i = 0; i < shorter + LINES; i++) {
+      qn_line line;
+      const double o[3] = {-10, i < shorter ? 0.75 : 0.125, 0}, d[3] = {1, 0, 0};
+      qn_woven w;
+      qn_scratch_begin(scratch);
+      qn_line_from_doubles(o, d, &line);
+      assert_int_equal(qn_weave(scene, scratch, &line, &WHOLE_LINE, 0, &w), QUOIN_OK);
+      assert_int_equal(w.inside_count, i < shorter ? LARGE : BALLS);
+      after_one = i == shorter + 2 ? p.largest : after_one;
+    }
+    assert_true(after_one > 0 && p.largest == after_one);
+    qn_scratch_free(scratch);
+  }
+  quoin_scene_free(scene);
+  quoin_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_ends), cmocka_unit_test(test_shared_ends), cmocka_unit_test(test_rounded_scenes), cmocka_unit_test(test_superquadric), cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_scratch_stays),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
